@@ -1,0 +1,254 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use seeone_plugin::Kind;
+use std::path::PathBuf;
+
+/// See one, do many: a robot watches one manipulation of one deformable object and does
+/// it on every other object of that category.
+///
+/// Exit status: 0 success; 1 the attempt was made and failed, or a check found faults;
+/// 2 something given was wrong; 3 a fault of the program; 130 interrupted.
+#[derive(Debug, Parser)]
+#[command(name = "seeone", version, propagate_version = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Run a skill once: look, perceive, encode, transfer, plan, act, judge.
+    Run(RunArgs),
+    /// Run a skill many times over seeds and objects and report rates with intervals.
+    Eval(EvalArgs),
+    /// Record a demonstration in the simulated cell into a skill file.
+    Teach(TeachArgs),
+    /// Objects of a category: list, import, show.
+    Objects {
+        /// What to do with them.
+        #[command(subcommand)]
+        action: ObjectsAction,
+    },
+    /// Make a training set: objects dropped, seen and labelled.
+    Data(DataArgs),
+    /// Train the networks.
+    Train(TrainArgs),
+    /// Check skill, scene, robot, object, cloud and weights files.
+    Check(CheckArgs),
+    /// Plugins: list what is built in, trust a dynamic library.
+    Plugins {
+        /// What to do with them.
+        #[command(subcommand)]
+        action: PluginsAction,
+    },
+}
+
+/// What a run or an evaluation is made of.
+#[derive(Clone, Debug, Args)]
+pub struct CellArgs {
+    /// The skill file.
+    pub skill: PathBuf,
+    /// The robot file.
+    #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
+    pub robot: PathBuf,
+    /// The scene file.
+    #[arg(long, default_value = "scenes/head.toml")]
+    pub scene: PathBuf,
+    /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
+    #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = method)]
+    pub methods: Vec<(Kind, String)>,
+    /// Load a trusted dynamic library and let it serve its kind; may be repeated.
+    #[arg(long = "plugin", value_name = "PATH")]
+    pub plugins: Vec<PathBuf>,
+}
+
+/// `run`.
+#[derive(Clone, Debug, Args)]
+pub struct RunArgs {
+    /// Skill, robot, scene, methods.
+    #[command(flatten)]
+    pub cell: CellArgs,
+    /// The object: a name from `objects list`, or a file from `objects import`.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub object: Option<String>,
+    /// Seed of the drop, of the camera's noise and of every other draw.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Plan, but do not move.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Print the outcome as one JSON object on standard output.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the recording and the picture.
+    #[arg(long, default_value = "out")]
+    pub out: PathBuf,
+}
+
+/// `eval`.
+#[derive(Clone, Debug, Args)]
+pub struct EvalArgs {
+    /// Skill, robot, scene, methods.
+    #[command(flatten)]
+    pub cell: CellArgs,
+    /// `unseen`, `validation`, `train`, a name, or a file from `objects import`.
+    #[arg(long, default_value = "unseen")]
+    pub objects: String,
+    /// Number of attempts; attempt i uses seed i and takes the objects in turn.
+    #[arg(long, default_value_t = 40)]
+    pub attempts: u64,
+    /// First seed.
+    #[arg(long, default_value_t = 0)]
+    pub first_seed: u64,
+    /// Attempts at the same time; the outcome does not depend on it.
+    #[arg(long, default_value_t = 2)]
+    pub jobs: usize,
+    /// Print the table as JSON on standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `teach`.
+#[derive(Clone, Debug, Args)]
+pub struct TeachArgs {
+    /// The skill file to write; its cloud goes into a folder of its name beside it.
+    pub skill: PathBuf,
+    /// The object that is shown.
+    #[arg(long, default_value = "cap-train-000")]
+    pub object: String,
+    /// Seed of the drop and of the camera's noise.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// The robot that shows it.
+    #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
+    pub robot: PathBuf,
+    /// The scene it is shown in.
+    #[arg(long, default_value = "scenes/head.toml")]
+    pub scene: PathBuf,
+}
+
+/// `objects ...`.
+#[derive(Debug, Subcommand)]
+pub enum ObjectsAction {
+    /// Names of the generated objects, a line each.
+    List {
+        /// As a JSON array.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Turn a mesh into an object of the category.
+    Import(ImportArgs),
+    /// Draw an object.
+    Show {
+        /// A name from `objects list`, or a file from `objects import`.
+        object: String,
+        /// The PNG file to write.
+        #[arg(long, default_value = "out/object.png")]
+        out: PathBuf,
+    },
+}
+
+/// `objects import`.
+#[derive(Clone, Debug, Args)]
+pub struct ImportArgs {
+    /// The mesh: OBJ.
+    pub mesh: PathBuf,
+    /// The mesh's axis that points up when the cap is worn: +x, -x, +y, -y, +z or -z.
+    #[arg(long, allow_hyphen_values = true)]
+    pub up: String,
+    /// The mesh's axis along which the visor points; found when left out.
+    #[arg(long, allow_hyphen_values = true)]
+    pub front: Option<String>,
+    /// Circumference of the head it fits, metres: gives the scale.
+    #[arg(long, value_name = "METRES")]
+    pub head_circumference: f64,
+    /// The object file to write (TOML).
+    #[arg(long)]
+    pub out: PathBuf,
+}
+
+/// `data`.
+#[derive(Clone, Debug, Args)]
+pub struct DataArgs {
+    /// Folder to write; whole shards already there are kept.
+    #[arg(long)]
+    pub out: PathBuf,
+    /// Seed of every draw.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// `train`, `validation`, `unseen`, a name, or a file from `objects import`.
+    #[arg(long, default_value = "train")]
+    pub objects: String,
+    /// Drops of each object.
+    #[arg(long, default_value_t = 12)]
+    pub drops: usize,
+}
+
+/// What to train.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Network {
+    /// Observation -> canonical.
+    Nst,
+    /// Canonical -> features anywhere.
+    Nse,
+    /// One after the other.
+    All,
+}
+
+/// `train`.
+#[derive(Clone, Debug, Args)]
+pub struct TrainArgs {
+    /// Which network.
+    pub network: Network,
+    /// The training set.
+    #[arg(long, default_value = "data/train")]
+    pub data: PathBuf,
+    /// Seed of the initial weights, of the order of samples and of every augmentation.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Folder under which `nst` and `nse` put their weights and cards.
+    #[arg(long, default_value = "weights")]
+    pub out: PathBuf,
+    /// Share of the full number of samples, for a trial: 1 trains fully.
+    #[arg(long, default_value_t = 1.0)]
+    pub share: f64,
+}
+
+/// `check`.
+#[derive(Clone, Debug, Args)]
+pub struct CheckArgs {
+    /// The files.
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// As a JSON array of faults.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `plugins ...`.
+#[derive(Debug, Subcommand)]
+pub enum PluginsAction {
+    /// What is built in, by kind.
+    List {
+        /// As a JSON array.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Write the manifest of a dynamic library: from then on this very file is loaded.
+    Trust {
+        /// The library.
+        library: PathBuf,
+    },
+}
+
+fn method(text: &str) -> Result<(Kind, String), String> {
+    let (kind, name) = text.split_once('=').ok_or("write KIND=PLUGIN, e.g. transfer=unchanged")?;
+    let kinds: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
+    let kind = kind
+        .parse()
+        .map_err(|()| format!("unknown kind \"{kind}\"; known: {}", kinds.join(", ")))?;
+    Ok((kind, name.to_owned()))
+}

@@ -1,0 +1,102 @@
+//! The plugins that the binary is linked with, by kind and name; the first of a kind is
+//! what is meant when nobody names one.
+
+use anyhow::Result;
+use seeone_camera_sim::{RecordedCamera, SimulatedCamera};
+use seeone_core::Diagnostic;
+use seeone_feature_match::FeatureMatch;
+use seeone_motion::{JointLine, Planner};
+use seeone_plugin::Kind;
+use seeone_plugin::abi::Library;
+use seeone_procrustes::{Procrustes, Ransac};
+use seeone_qp_ik::{DampedLeastSquares, QpIk};
+use seeone_runtime::methods::Methods;
+use seeone_runtime::registry::Registry;
+use seeone_unchanged::{Snap, Unchanged};
+use seeone_ur5_ag95_sim::SimulatedArm;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where the networks' weights lie, from the folder in which the binary is run.
+pub const WEIGHTS: [&str; 2] = ["plugins/nst/weights", "plugins/nse/weights"];
+
+/// Every plugin that is linked in.
+pub fn registry() -> Registry {
+    let mut all = Registry::new();
+    all.camera.add("camera-sim", |setup| Ok(Box::new(SimulatedCamera::from_setup(setup)?)));
+    all.camera.add("camera-file", |setup| Ok(Box::new(RecordedCamera::from_setup(setup)?)));
+    all.perception.add("nst", |setup| Ok(Box::new(seeone_nst::build(setup)?)));
+    all.encoding.add("nse", |setup| Ok(Box::new(seeone_nse::build(setup)?)));
+    all.encoding.add("nearest-feature", |setup| {
+        Ok(Box::new(seeone_nse::build_nearest_feature(setup)?))
+    });
+    all.alignment.add("procrustes", |setup| Ok(Box::new(Procrustes::from_setup(setup)?)));
+    all.alignment.add("ransac", |setup| Ok(Box::new(Ransac::from_setup(setup)?)));
+    all.transfer.add("feature-match", |setup| Ok(Box::new(FeatureMatch::from_setup(setup)?)));
+    all.transfer.add("snap", |setup| Ok(Box::new(Snap::from_setup(setup)?)));
+    all.transfer.add("unchanged", |setup| Ok(Box::new(Unchanged::from_setup(setup)?)));
+    all.kinematics.add("qp-ik", |setup| Ok(Box::new(QpIk::from_setup(setup)?)));
+    all.kinematics.add("damped-least-squares", |setup| {
+        Ok(Box::new(DampedLeastSquares::from_setup(setup)?))
+    });
+    all.motion.add("motion", |setup| Ok(Box::new(Planner::from_setup(setup)?)));
+    all.motion.add("joint-line", |setup| Ok(Box::new(JointLine::from_setup(setup)?)));
+    all.robot.add("ur5-ag95-sim", |setup| Ok(Box::new(SimulatedArm::lagging(setup)?)));
+    all.robot.add("ideal-sim", |setup| Ok(Box::new(SimulatedArm::ideal(setup)?)));
+    all
+}
+
+/// Loads a trusted dynamic library; it serves its kind under its own name, in place of a
+/// linked plugin of that name.
+///
+/// # Errors
+/// When the library has no manifest, is not the file that was trusted, or is no plugin.
+pub fn load(registry: &mut Registry, path: &Path) -> Result<()> {
+    let library = Arc::new(Library::open(path)?);
+    let (kind, name) = (library.manifest().kind, library.manifest().name.clone());
+    match kind {
+        Kind::Alignment => {
+            registry.alignment.add(&name, move |setup| library.alignment(setup));
+            Ok(())
+        }
+        other => Err(Diagnostic::new("A020", format!("a library cannot serve the kind {other}"))
+            .in_file(path)
+            .hint("the kind that can be loaded is alignment")
+            .into()),
+    }
+}
+
+/// What else must be known to repeat a run: the version and the hashes of the weights.
+///
+/// # Errors
+/// When weights cannot be read.
+pub fn provenance(methods: &Methods) -> Result<BTreeMap<String, String>> {
+    let mut known = BTreeMap::from([("seeone".to_owned(), env!("CARGO_PKG_VERSION").to_owned())]);
+    let learned = [Kind::Perception, Kind::Encoding].map(|kind| methods.name(kind));
+    for (folder, name) in WEIGHTS.iter().zip(learned) {
+        if !name.starts_with("ns") {
+            continue;
+        }
+        for file in weights_in(Path::new(folder)) {
+            if let Ok(bytes) = fs::read(&file) {
+                let hash = blake3::hash(&bytes).to_hex().to_string();
+                known.insert(file.display().to_string(), hash);
+            }
+        }
+    }
+    Ok(known)
+}
+
+/// The weights of a folder by name; none when the folder is not there, which the plugin
+/// that needs them tells better.
+fn weights_in(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<PathBuf> = entries
+        .filter_map(|entry| entry.ok().map(|e| e.path()))
+        .filter(|path| path.extension().is_some_and(|e| e == "safetensors"))
+        .collect();
+    files.sort();
+    files
+}

@@ -1,0 +1,35 @@
+//! Checking any file the user may name: the runtime's own kinds, and objects, clouds and
+//! weights besides.
+
+use crate::objects;
+use seeone_core::Diagnostic;
+use seeone_core::formats::ply;
+use seeone_nn::Card;
+use seeone_runtime::files::{self, KnownMethods};
+use std::fs;
+use std::path::Path;
+
+/// Everything that is wrong with a file; nothing when it is sound.
+pub fn check(path: &Path, known: &KnownMethods) -> Vec<Diagnostic> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    match extension {
+        "ply" => ply::read_cloud(path).err().into_iter().collect(),
+        "safetensors" => weights(path).err().into_iter().collect(),
+        _ if is_object(path) => objects::read(path).err().into_iter().collect(),
+        _ => files::check(path, known),
+    }
+}
+
+/// Object files are told by their lists of vertices.
+fn is_object(path: &Path) -> bool {
+    fs::read_to_string(path)
+        .is_ok_and(|text| text.lines().any(|line| line.trim_start().starts_with("vertices")))
+}
+
+/// Weights are what the card beside them says they are.
+fn weights(path: &Path) -> Result<(), Diagnostic> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
+    let card = Card::read(folder)?;
+    card.entry(folder, name).map(drop)
+}

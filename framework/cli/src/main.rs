@@ -1,0 +1,93 @@
+//! `seeone`: see one, do many. The one place that names the built-in plugins.
+
+mod args;
+mod builtin;
+mod console;
+mod faults;
+mod files;
+mod objects;
+mod picture;
+mod rate;
+mod simulated;
+mod verbs;
+mod workcell;
+
+use anyhow::Result;
+use args::{Cli, ObjectsAction, PluginsAction, Verb};
+use clap::Parser;
+use seeone_core::Diagnostic;
+use std::process::ExitCode;
+
+/// glibc's allocator returns every large tensor to the kernel at once; half of a training
+/// step went there.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+/// How a verb ended when nothing was wrong with what it was given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    Success,
+    /// An honest "no": the attempt failed, or a check found faults.
+    Failure,
+}
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version are answers, not errors; a closed pipe ends either.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    match dispatch(&cli.verb) {
+        Ok(Ending::Success) => ExitCode::SUCCESS,
+        Ok(Ending::Failure) => ExitCode::from(1),
+        Err(error) => report(&error),
+    }
+}
+
+fn dispatch(verb: &Verb) -> Result<Ending> {
+    match verb {
+        Verb::Run(args) => verbs::run::run(args),
+        Verb::Eval(args) => verbs::eval::run(args),
+        Verb::Teach(args) => verbs::teach::run(args),
+        Verb::Objects { action: ObjectsAction::List { json } } => verbs::objects::list(*json),
+        Verb::Objects { action: ObjectsAction::Import(args) } => verbs::objects::import(args),
+        Verb::Objects { action: ObjectsAction::Show { object, out } } => {
+            verbs::objects::show(object, out)
+        }
+        Verb::Data(args) => verbs::data::run(args),
+        Verb::Train(args) => verbs::train::run(args),
+        Verb::Check(args) => verbs::check::run(args),
+        Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
+        Verb::Plugins { action: PluginsAction::Trust { library } } => {
+            verbs::plugins::trust(library)
+        }
+    }
+}
+
+/// Tells the whole chain of causes on standard error and picks the exit status.
+fn report(error: &anyhow::Error) -> ExitCode {
+    if is_broken_pipe(error) {
+        return ExitCode::SUCCESS;
+    }
+    let given_wrong = error.chain().find_map(|cause| cause.downcast_ref::<Diagnostic>());
+    match given_wrong {
+        Some(diagnostic) => {
+            console::tell(&diagnostic.to_string());
+            ExitCode::from(2)
+        }
+        None => {
+            console::tell(&format!("error: {error:#}"));
+            ExitCode::from(3)
+        }
+    }
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<std::io::Error>())
+        .any(|cause| cause.kind() == std::io::ErrorKind::BrokenPipe)
+}

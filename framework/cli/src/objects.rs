@@ -1,0 +1,80 @@
+//! From what the user calls an object to the object itself.
+
+use anyhow::Result;
+use seeone_core::Diagnostic;
+use seeone_sim::category::cap::{self, Set};
+use seeone_sim::object::Object;
+use seeone_core::frames::write_whole;
+use seeone_sim::object_file::{self, ObjectFileFault};
+use std::fs;
+use std::path::Path;
+
+/// The sets of generated objects by the names that the command line uses.
+pub const SETS: [(&str, Set); 3] =
+    [("train", Set::Train), ("validation", Set::Validation), ("unseen", Set::Unseen)];
+
+/// The object of this name, or of this file.
+///
+/// # Errors
+/// A diagnostic when there is neither, or the file is no object.
+pub fn resolve(name_or_file: &str) -> Result<Object> {
+    if let Some(object) = cap::named(name_or_file) {
+        return Ok(object);
+    }
+    let path = Path::new(name_or_file);
+    if path.exists() || path.extension().is_some() {
+        return Ok(read(path)?);
+    }
+    let names: Vec<String> = SETS.iter().flat_map(|(_, set)| cap::names(*set)).collect();
+    let fault = Diagnostic::new("O001", format!("there is no object \"{name_or_file}\""));
+    let near = fault.clone().suggest(name_or_file, names.iter().map(String::as_str));
+    Err(match near.hint {
+        Some(hint) if hint.starts_with("did you mean") => fault.hint(hint),
+        _ => fault.hint("see `seeone objects list`, or name a file made by `seeone objects import`"),
+    }
+    .into())
+}
+
+/// The names of a set, or the one name or file that is none.
+pub fn names(set_or_object: &str) -> Vec<String> {
+    SETS.iter()
+        .find(|(name, _)| *name == set_or_object)
+        .map_or_else(|| vec![set_or_object.to_owned()], |(_, set)| cap::names(*set))
+}
+
+/// The object of an attempt: the named one, or the set's member whose turn it is.
+///
+/// # Errors
+/// As [`resolve`].
+pub fn for_attempt(set_or_object: &str, seed: u64) -> Result<Object> {
+    let names = names(set_or_object);
+    resolve(&names[(seed % names.len() as u64) as usize])
+}
+
+/// Reads an object file.
+///
+/// # Errors
+/// `O004` with its place when it cannot be read or is no object.
+pub fn read(path: &Path) -> Result<Object, Diagnostic> {
+    let unreadable = |e: std::io::Error| {
+        Diagnostic::new("O004", e.to_string())
+            .in_file(path)
+            .hint("make one with `seeone objects import`")
+    };
+    let text = fs::read_to_string(path).map_err(unreadable)?;
+    object_file::from_toml(&text).map_err(|fault| match &fault {
+        ObjectFileFault::Syntax(error) => Diagnostic::new("O004", error.message())
+            .at_offset(path, &text, error.span().map_or(0, |span| span.start)),
+        other => Diagnostic::new("O004", other.to_string()).in_file(path),
+    })
+}
+
+/// Writes an object file, in one step.
+///
+/// # Errors
+/// `O005` when it cannot be written.
+pub fn write(object: &Object, path: &Path) -> Result<(), Diagnostic> {
+    let fault = |cause: String| Diagnostic::new("O005", cause).in_file(path);
+    let text = object_file::to_toml(object).map_err(|e| fault(e.to_string()))?;
+    write_whole(path, text.as_bytes()).map_err(|e| fault(e.to_string()))
+}

@@ -1,0 +1,134 @@
+//! The simulated cell as the composition root sees it: made from scene and object, shared
+//! with the plugins, and read by the judge.
+
+use anyhow::{Result, anyhow};
+use nalgebra::{Point3, Vector3};
+use seeone_core::random::generator;
+use seeone_plugin::{Judge, Measure, PluginError, Verdict, WorldHandle};
+use seeone_runtime::files::Scene;
+use seeone_sim::cell::Cell;
+use seeone_sim::drop::Drop;
+use seeone_sim::object::Object;
+use seeone_sim::rigid_fit::rigid_fit;
+use seeone_sim::surroundings::{Frictions, Head, Surroundings};
+use seeone_sim::world::Settings;
+use seeone_sim::worn::{Worn, worn};
+use std::sync::{Arc, Mutex, MutexGuard};
+
+/// How long a released object may rock before the verdict, seconds.
+const VERDICT_LIMIT_S: f64 = 6.0;
+/// A tilt or yaw beyond this is told in the reason, degrees.
+const ASKEW_DEG: f64 = 30.0;
+
+/// A simulated cell and what its object looks like when it is worn.
+pub struct SimulatedCell {
+    /// Shared with the camera and robot plugins.
+    pub cell: Arc<Mutex<Cell>>,
+    head: Head,
+    worn: Arc<Worn>,
+}
+
+impl SimulatedCell {
+    /// Drops `object` into the scene and lets it come to rest.
+    ///
+    /// # Errors
+    /// When the object cannot be worn at all, or the simulation diverged.
+    pub fn drop(scene: &Scene, object: Object, seed: u64) -> Result<Self> {
+        let settings = Settings::default();
+        let worn = worn(&object, &settings)
+            .map_err(|fault| anyhow!(fault).context(format!("object \"{}\"", object.name())))?;
+        let head = Head { pose: scene.head.pose };
+        let surroundings = Surroundings {
+            table: true,
+            head: Some(head),
+            frictions: Frictions {
+                table: scene.table.friction,
+                head: scene.head.friction,
+                ..Frictions::default()
+            },
+        };
+        let centre = [scene.drop.centre.x, scene.drop.centre.y];
+        let drop = Drop::draw(centre, &mut generator(seed, "drop"));
+        let cell = Cell::after_drop(object, &drop, surroundings, settings)
+            .map_err(|fault| anyhow!(fault))?;
+        Ok(Self { cell: Arc::new(Mutex::new(cell)), head, worn: Arc::new(worn) })
+    }
+
+    /// The handle for plugins.
+    pub fn handle(&self) -> WorldHandle {
+        WorldHandle::new(Arc::clone(&self.cell))
+    }
+
+    /// The judge of this cell.
+    pub fn judge(&self) -> CellJudge {
+        CellJudge { cell: Arc::clone(&self.cell), head: self.head, worn: Arc::clone(&self.worn) }
+    }
+
+    /// The worn state on this cell's head, in `world`, metres.
+    pub fn worn_vertices(&self) -> Vec<Point3<f64>> {
+        self.worn.vertices.iter().map(|v| self.head.pose * v).collect()
+    }
+}
+
+/// Judges by the world's own vertices (method: Eq. 11 and 12).
+pub struct CellJudge {
+    cell: Arc<Mutex<Cell>>,
+    head: Head,
+    worn: Arc<Worn>,
+}
+
+impl CellJudge {
+    fn lock(&self) -> Result<MutexGuard<'_, Cell>, PluginError> {
+        self.cell.lock().map_err(|_| PluginError::Internal("the simulated cell broke down".into()))
+    }
+}
+
+impl Judge for CellJudge {
+    fn grasped(&mut self) -> Result<bool, PluginError> {
+        self.lock()?.holds_object().map_err(PluginError::Internal)
+    }
+
+    fn judge(&mut self, measure: Measure, grasped: bool) -> Result<Verdict, PluginError> {
+        let Measure::Worn { tolerance_d } = measure;
+        let (at_rest, reached) = {
+            let mut cell = self.lock()?;
+            let at_rest = cell.settle(VERDICT_LIMIT_S).map_err(PluginError::Internal)?;
+            let to_head = self.head.pose.inverse();
+            (at_rest, cell.vertices().iter().map(|v| to_head * v).collect::<Vec<_>>())
+        };
+        let target = &self.worn.vertices;
+        let error_m = reached.iter().zip(target).map(|(a, b)| (a - b).norm()).sum::<f64>()
+            / target.len() as f64;
+        let error_d = error_m / self.worn.diameter_m;
+        let turn = rigid_fit(target, &reached).rotation;
+        let up = turn * Vector3::z();
+        let forward = turn * Vector3::y();
+        let tilt_deg = up.angle(&Vector3::z()).to_degrees();
+        let yaw_deg = (-forward.x).atan2(forward.y).to_degrees();
+        let success = grasped && at_rest && error_d < tolerance_d;
+        let placed = format!("{error_d:.3} d from worn, tilted {tilt_deg:.0}, turned {yaw_deg:.0} degrees");
+        let reason = match (grasped, at_rest, success) {
+            (false, ..) => "never held after the lift".into(),
+            (true, false, _) => format!("did not come to rest: {placed}"),
+            (true, true, true) => placed,
+            (true, true, false) if error_d > 1.0 => format!("not on the head: {placed}"),
+            (true, true, false) if tilt_deg > ASKEW_DEG || yaw_deg.abs() > ASKEW_DEG => {
+                format!("on the head askew: {placed}")
+            }
+            (true, true, false) => format!("outside the tolerance: {placed}"),
+        };
+        Ok(Verdict {
+            grasped,
+            success,
+            error_m: Some(error_m),
+            error_d: Some(error_d),
+            tilt_deg: Some(tilt_deg),
+            yaw_deg: Some(yaw_deg),
+            reason,
+        })
+    }
+
+    fn object(&self) -> Vec<[f64; 3]> {
+        self.lock().map(|cell| cell.vertices().iter().map(|v| (*v).into()).collect()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,10 @@
+//! One module a verb.
+
+pub mod check;
+pub mod data;
+pub mod eval;
+pub mod objects;
+pub mod plugins;
+pub mod run;
+pub mod teach;
+pub mod train;

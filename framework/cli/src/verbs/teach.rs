@@ -1,0 +1,195 @@
+//! `teach`: a scripted expert, which knows the true mesh, shows a skill once in the
+//! simulated cell. What is kept is what any demonstration is: one cloud and key poses.
+
+use crate::args::TeachArgs;
+use crate::builtin;
+use crate::faults::Faults;
+use crate::simulated::SimulatedCell;
+use crate::{Ending, console, objects};
+use anyhow::{Context, Result, anyhow, bail};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use seeone_core::formats::ply::{self, Encoding};
+use seeone_core::frames::write_whole;
+use seeone_core::{Cloud, Pose};
+use seeone_plugin::{
+    GripperCommand, Judge, KeyPose, Kind, Measure, MotionOutcome, MotionTask, Program, Setup,
+};
+use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage};
+use seeone_runtime::plugins::configuration;
+use seeone_sim::expert::VisorGrasp;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// The hand comes from so much above the visor's plane.
+const PITCH_DEG: f64 = 12.0;
+/// Grip force, newtons: the AG-95's least.
+const GRIP_N: f64 = 45.0;
+/// The cap comes onto the head nose up by this, degrees, and levels at the very end.
+const NOSE_UP_DEG: f64 = 10.0;
+/// Heights over the worn pose at which it arrives, begins to level, and is let go, metres.
+const ABOVE_M: f64 = 0.15;
+const LEVEL_M: f64 = 0.012;
+const LET_GO_M: f64 = 0.003;
+/// A cloud of more points is thinned to about so many.
+const CLOUD_POINTS: usize = 4096;
+/// A demonstration that ends farther from the worn state teaches nothing, share of d.
+const TOLERANCE_D: f64 = 0.1;
+
+/// Shows the skill, and writes it when it succeeded.
+///
+/// # Errors
+/// When the expert cannot carry it out, or a file cannot be written.
+pub fn run(args: &TeachArgs) -> Result<Ending> {
+    let registry = builtin::registry();
+    let known = registry.known();
+    let scene = Scene::read(&args.scene, &known).map_err(Faults)?;
+    let robot_file = RobotFile::read(&args.robot, &known).map_err(Faults)?;
+    let robot = robot_file.model()?;
+    let object = objects::resolve(&args.object)?;
+    let name = args
+        .skill
+        .file_stem()
+        .and_then(|stem| stem.to_str())
+        .ok_or_else(|| anyhow!("{} has no name", args.skill.display()))?;
+
+    let cell = SimulatedCell::drop(&scene, object.clone(), args.seed)?;
+    let config = configuration(&scene, &robot_file);
+    let empty = toml::Table::new();
+    let setup = |kind| Setup {
+        config: config.get(&kind).unwrap_or(&empty),
+        root: Path::new("."),
+        seed: args.seed,
+        robot: Some(&robot),
+        world: Some(cell.handle()),
+    };
+    let mut camera = registry.camera.build("camera-sim", &setup(Kind::Camera))?;
+    let kinematics = registry.kinematics.build("qp-ik", &setup(Kind::Kinematics))?;
+    let motion = registry.motion.build("motion", &setup(Kind::Motion))?;
+    let mut arm = registry.robot.build(&robot_file.plugin, &setup(Kind::Robot))?;
+    let observation = camera.observe()?;
+
+    let stages = stages(&cell, &scene)?;
+    let key_poses: Vec<KeyPose> = stages.iter().map(key_pose).collect();
+    let start = arm.state()?.joints;
+    let obstacles = scene.obstacles();
+    let task = MotionTask { start: &start, key_poses: &key_poses, obstacles: &obstacles };
+    let program: Program = match motion.plan(&robot, kinematics.as_ref(), &task)? {
+        MotionOutcome::Planned { program, .. } => program,
+        MotionOutcome::Infeasible { stage, reason } => {
+            bail!("the expert cannot show {stage}: {reason}; try another --seed")
+        }
+    };
+    let mut judge = cell.judge();
+    let mut grasped = false;
+    for step in &program.steps {
+        arm.execute(&step.action, &mut |_| ())
+            .with_context(|| format!("{} ({})", step.stage, step.purpose))?;
+        if step.purpose == "lift" && step.stage == stages[0].name {
+            grasped = judge.grasped()?;
+        }
+    }
+    let measure = Measure::Worn { tolerance_d: TOLERANCE_D };
+    let verdict = judge.judge(measure, grasped)?;
+    console::tell(&format!("shown with {}: {}", object.name(), verdict.reason));
+    if !verdict.success {
+        bail!("the demonstration failed; nothing was written; try another --seed");
+    }
+    let skill = Skill {
+        name: name.to_owned(),
+        category: object.category().to_owned(),
+        summary: "Pick a cap from the table and put it on a head.".into(),
+        demonstration: Demonstration {
+            cloud: args.skill.with_extension("").join("demonstration.ply"),
+            camera_position: observation.camera_position,
+            frames: BTreeMap::from([("head".to_owned(), scene.head.pose)]),
+        },
+        stages,
+        methods: BTreeMap::from([
+            (Kind::Perception, "nst".to_owned()),
+            (Kind::Encoding, "nse".to_owned()),
+            (Kind::Alignment, "procrustes".to_owned()),
+            (Kind::Transfer, "feature-match".to_owned()),
+            (Kind::Kinematics, "qp-ik".to_owned()),
+            (Kind::Motion, "motion".to_owned()),
+        ]),
+        measure,
+    };
+    write(&skill, &args.skill, &observation.cloud)?;
+    Ok(Ending::Success)
+}
+
+/// The expert's key poses: the visor's front edge as it truly lies, and where that edge is
+/// on the worn cap.
+fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
+    let (object, now) = {
+        let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
+        (cell.object().clone(), cell.vertices().to_vec())
+    };
+    let grasp = VisorGrasp::of(&object, PITCH_DEG.to_radians())
+        .ok_or_else(|| anyhow!("{} has no visor to take it by", object.name()))?;
+    let taken = grasp.tool_on(&now);
+    let worn = grasp.tool_on(&cell.worn_vertices());
+    let head = scene.head.pose;
+    let over = |height_m: f64, nose_up_deg: f64| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), nose_up_deg.to_radians());
+        head * Pose::from_parts(Translation3::new(0.0, 0.0, height_m), turn) * head.inverse() * worn
+    };
+    let stage = |name: &str, relative_to: RelativeTo, gripper_pose: Pose| Stage {
+        name: name.to_owned(),
+        relative_to,
+        gripper_pose,
+        approach_m: 0.0,
+        opening_m: Stage::OPENING_M,
+        gripper: None,
+        retreat_m: 0.0,
+        lift_m: 0.0,
+        turn_about_closing_deg: 0.0,
+    };
+    let on_head = || RelativeTo::Frame("head".to_owned());
+    Ok(vec![
+        Stage {
+            approach_m: 0.10,
+            gripper: Some(GripperCommand::Close { force_n: GRIP_N }),
+            lift_m: 0.25,
+            turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,
+            ..stage("pick", RelativeTo::Object, taken)
+        },
+        stage("middle", on_head(), over(ABOVE_M, NOSE_UP_DEG)),
+        stage("lower", on_head(), over(LEVEL_M, NOSE_UP_DEG)),
+        Stage {
+            gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
+            retreat_m: 0.15,
+            ..stage("release", on_head(), over(LET_GO_M, 0.0))
+        },
+    ])
+}
+
+fn key_pose(stage: &Stage) -> KeyPose {
+    KeyPose {
+        stage: stage.name.clone(),
+        pose: stage.gripper_pose,
+        approach_m: stage.approach_m,
+        opening_m: stage.opening_m,
+        gripper: stage.gripper,
+        retreat_m: stage.retreat_m,
+        lift_m: stage.lift_m,
+    }
+}
+
+/// Writes the cloud, then the skill that names it.
+fn write(skill: &Skill, path: &Path, cloud: &Cloud) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let text = skill.to_toml(folder)?;
+    if let Some(folder) = skill.demonstration.cloud.parent() {
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    }
+    let stride = cloud.len().div_ceil(CLOUD_POINTS).max(1);
+    let thinned = cloud.points().iter().step_by(stride).copied().collect();
+    let thinned = Cloud::new(thinned).unwrap_or_default();
+    ply::write_cloud(&skill.demonstration.cloud, &thinned, Encoding::BinaryLittleEndian)?;
+    write_whole(path, text.as_bytes())
+        .with_context(|| format!("cannot write {}", path.display()))?;
+    console::tell(&format!("wrote {} and {}", path.display(), skill.demonstration.cloud.display()));
+    Ok(())
+}

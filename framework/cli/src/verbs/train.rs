@@ -1,0 +1,151 @@
+//! `train`: the networks, from a set of frames to weights with their cards.
+
+use crate::args::{Network, TrainArgs};
+use crate::{Ending, console};
+use anyhow::Result;
+use indicatif::{ProgressBar, ProgressStyle};
+use nalgebra::Point3;
+use seeone_core::Cloud;
+use seeone_core::frames::Frame;
+use seeone_nn::train::Ending as Trained;
+use seeone_nse::Progress as NseProgress;
+use seeone_nst::{NstPerception, Report, Stage};
+use seeone_plugin::Observation;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Samples of a full training; `--share` takes a part of them.
+const COARSE_SAMPLES: f64 = 33_000.0;
+const REFINER_SAMPLES: f64 = 55_000.0;
+const NSE_SAMPLES: f64 = 4_000.0;
+/// Frames at rest that the encoding learns from.
+const NSE_FRAMES: usize = 1_600;
+
+/// Trains what was asked for; continues what was interrupted.
+///
+/// # Errors
+/// When the set cannot be read, or weights cannot be written.
+pub fn run(args: &TrainArgs) -> Result<Ending> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let ordered = Arc::clone(&stop);
+    ctrlc::set_handler(move || ordered.store(true, Ordering::Relaxed))?;
+    let go_on = || {
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let (nst, nse) = (args.out.join("nst/weights"), args.out.join("nse/weights"));
+    let mut whole = true;
+    if args.network != Network::Nse {
+        whole = train_nst(args, &nst, &go_on)?;
+    }
+    if whole && args.network != Network::Nst {
+        whole = train_nse(args, &nst, &nse, &go_on)?;
+    }
+    if !whole {
+        console::tell("interrupted; the same command goes on from the checkpoint");
+    }
+    Ok(if whole { Ending::Success } else { Ending::Failure })
+}
+
+fn command(args: &TrainArgs, network: &str) -> String {
+    format!("seeone train {network} --data {} --seed {} --share {}", args.data.display(), args.seed, args.share)
+}
+
+fn samples(full: f64, args: &TrainArgs) -> u64 {
+    (full * args.share).round().max(1.0) as u64
+}
+
+fn bar() -> Result<ProgressBar> {
+    let style = "{msg} {wide_bar} {pos}/{len}, {per_sec}, {eta} left";
+    Ok(ProgressBar::new(0).with_style(ProgressStyle::with_template(style)?))
+}
+
+fn train_nst(args: &TrainArgs, out: &Path, go_on: &dyn Fn() -> ControlFlow<()>) -> Result<bool> {
+    let others = ["validation", "unseen"].map(|name| (name, args.data.with_file_name(name)));
+    let measure_on = others
+        .into_iter()
+        .filter(|(_, folder)| folder.join("index.json").exists())
+        .map(|(name, folder)| (name.to_owned(), folder))
+        .collect();
+    let plan = seeone_nst::TrainPlan {
+        data: args.data.clone(),
+        measure_on,
+        out: out.to_owned(),
+        seed: args.seed,
+        coarse_samples: samples(COARSE_SAMPLES, args),
+        refiner_samples: samples(REFINER_SAMPLES, args),
+        category: "cap".into(),
+        command: command(args, "nst"),
+    };
+    let bar = bar()?;
+    let mut stage: Option<Stage> = None;
+    let report = seeone_nst::train(&plan, &mut |told| {
+        if stage != Some(told.stage) {
+            stage = Some(told.stage);
+            bar.reset();
+        }
+        bar.set_length(told.progress.total);
+        bar.set_position(told.progress.done);
+        bar.set_message(format!("nst {:?} {}", told.stage, loss(told.progress.loss)));
+        go_on()
+    })?;
+    bar.finish_and_clear();
+    let Report::Finished(figures) = report else { return Ok(false) };
+    for (set, figures) in &figures {
+        console::tell(&format!("nst on {set}: {}", serde_json::to_string(figures)?));
+    }
+    Ok(true)
+}
+
+fn train_nse(
+    args: &TrainArgs,
+    perception: &Path,
+    out: &Path,
+    go_on: &dyn Fn() -> ControlFlow<()>,
+) -> Result<bool> {
+    let nst = NstPerception::load(perception)?;
+    let plan = seeone_nse::TrainPlan {
+        data: args.data.clone(),
+        perception: perception.to_owned(),
+        out: out.to_owned(),
+        seed: args.seed,
+        samples: samples(NSE_SAMPLES, args),
+        frames: NSE_FRAMES,
+        command: command(args, "nse"),
+    };
+    let bar = bar()?;
+    let perceive = |frame: &Frame| nst.canonical(&observation(frame));
+    let ending = seeone_nse::train(&plan, &perceive, &mut |told| {
+        match told {
+            NseProgress::Perceiving { done, total } => {
+                bar.set_length(total as u64);
+                bar.set_position(done as u64);
+                bar.set_message("nse: perceiving the frames");
+            }
+            NseProgress::Training(progress) => {
+                bar.set_length(progress.total);
+                bar.set_position(progress.done);
+                bar.set_message(format!("nse {}", loss(progress.loss)));
+            }
+        }
+        go_on()
+    })?;
+    bar.finish_and_clear();
+    Ok(ending == Trained::Finished)
+}
+
+/// A frame of the set as a camera would have shown it.
+fn observation(frame: &Frame) -> Observation {
+    let points = frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
+    Observation {
+        depth: None,
+        // The set was checked for finite points when it was read.
+        cloud: Cloud::new(points).unwrap_or_default(),
+        camera_position: Point3::from(frame.info.camera_xyz_m),
+    }
+}
+
+fn loss(value: f64) -> String {
+    if value.is_finite() { format!("loss {value:.4}") } else { String::new() }
+}

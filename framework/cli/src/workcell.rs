@@ -1,0 +1,118 @@
+//! One attempt: the files, the simulated cell and the plugins brought together.
+
+use crate::args::CellArgs;
+use crate::builtin;
+use crate::faults::Faults;
+use crate::simulated::SimulatedCell;
+use anyhow::{Context, Result};
+use seeone_core::robot::RobotModel;
+use seeone_plugin::Kind;
+use seeone_runtime::files::{RobotFile, Scene, Skill};
+use seeone_runtime::methods::Methods;
+use seeone_runtime::plugins::{Cell, Plugins, configuration};
+use seeone_runtime::registry::Registry;
+use seeone_runtime::run::{Assignment, Finished, Hooks};
+use seeone_sim::object::Object;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What every attempt of one command shares.
+pub struct Workcell {
+    /// Every plugin there is.
+    pub registry: Registry,
+    /// The skill.
+    pub skill: Skill,
+    /// The scene.
+    pub scene: Scene,
+    /// The robot file's name for the report.
+    pub robot_name: String,
+    /// The robot.
+    pub robot: RobotModel,
+    /// Which plugin does what.
+    pub methods: Methods,
+    config: BTreeMap<Kind, toml::Table>,
+    provenance: BTreeMap<String, String>,
+}
+
+/// How one attempt is to be made.
+pub struct Attempt {
+    /// The seed of every draw.
+    pub seed: u64,
+    /// Whether to stop after planning.
+    pub dry_run: bool,
+    /// Where to record it, if at all.
+    pub recording: Option<PathBuf>,
+}
+
+impl Workcell {
+    /// Reads and checks everything the command names.
+    ///
+    /// # Errors
+    /// Every fault found in the first file that has any, an unknown method, a plugin that
+    /// is not trusted.
+    pub fn open(args: &CellArgs) -> Result<Self> {
+        let mut registry = builtin::registry();
+        for library in &args.plugins {
+            builtin::load(&mut registry, library)?;
+        }
+        let known = registry.known();
+        let skill = Skill::read(&args.skill, &known).map_err(Faults)?;
+        let scene = Scene::read(&args.scene, &known).map_err(Faults)?;
+        let robot_file = RobotFile::read(&args.robot, &known).map_err(Faults)?;
+        let robot = robot_file.model()?;
+        let methods = Methods::resolve(&skill, &scene, &robot_file, &args.methods, &registry)?;
+        let config = configuration(&scene, &robot_file);
+        let provenance = builtin::provenance(&methods)?;
+        Ok(Self {
+            registry,
+            skill,
+            scene,
+            robot_name: robot_file.name,
+            robot,
+            methods,
+            config,
+            provenance,
+        })
+    }
+
+    /// Makes one attempt in a cell into which `object` has been dropped.
+    ///
+    /// # Errors
+    /// When a plugin cannot be built or the skill does not fit the scene. Whatever goes
+    /// wrong in the run itself is told in its outcome.
+    pub fn attempt(
+        &self,
+        cell: &SimulatedCell,
+        object: &Object,
+        attempt: Attempt,
+        hooks: Hooks,
+    ) -> Result<Finished> {
+        let built = Cell {
+            config: &self.config,
+            root: Path::new("."),
+            seed: attempt.seed,
+            robot: &self.robot,
+            world: Some(cell.handle()),
+        };
+        let judge = Box::new(cell.judge());
+        let plugins = Plugins::build(&self.registry, &self.methods, &built, Some(judge))?;
+        let (skill, scene) = (self.skill.clone(), self.scene.clone());
+        let mut assignment =
+            Assignment::new(skill, scene, self.robot.clone(), self.methods.clone())?;
+        assignment.object = object.name().to_owned();
+        assignment.robot_name.clone_from(&self.robot_name);
+        assignment.seed = attempt.seed;
+        assignment.dry_run = attempt.dry_run;
+        assignment.recording = attempt.recording;
+        assignment.provenance.clone_from(&self.provenance);
+        Ok(seeone_runtime::run::run(assignment, plugins, hooks))
+    }
+
+    /// Drops `object` into the scene.
+    ///
+    /// # Errors
+    /// As [`SimulatedCell::drop`].
+    pub fn drop(&self, object: &Object, seed: u64) -> Result<SimulatedCell> {
+        SimulatedCell::drop(&self.scene, object.clone(), seed).context("the simulated cell")
+    }
+}

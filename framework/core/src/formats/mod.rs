@@ -1,0 +1,3 @@
+//! The file formats in which clouds and meshes are kept.
+
+pub mod ply;

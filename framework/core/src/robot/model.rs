@@ -1,0 +1,137 @@
+//! The checked robot and its kinematics.
+
+use super::{GripperModel, Joint, Solid, tessellate::tessellate};
+use crate::{Pose, TriangleMesh};
+use nalgebra::{Matrix6xX, Vector3};
+
+/// One rigid part of the arm: the base, or what is behind a joint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Link {
+    /// What it may not put into something else; poses in the link's frame.
+    pub collision: Vec<Solid>,
+    /// What it looks like; poses in the link's frame.
+    pub visual: Vec<Solid>,
+}
+
+/// A serial arm of revolute joints with a two-finger gripper. Made by
+/// [`RobotModel::from_urdf`] alone, so whatever holds one may rely on its checks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotModel {
+    pub(super) name: String,
+    pub(super) base: Pose,
+    pub(super) joints: Vec<Joint>,
+    pub(super) links: Vec<Link>,
+    pub(super) tool: Pose,
+    pub(super) home: Vec<f64>,
+    pub(super) acceleration: f64,
+    pub(super) gripper: GripperModel,
+}
+
+impl RobotModel {
+    /// The robot's name in the URDF.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Pose of the base link in `world`.
+    pub fn base(&self) -> &Pose {
+        &self.base
+    }
+
+    /// The joints, base first; at least one.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The arm's links without the gripper: the base, then one behind each joint.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Pose of the tool frame (TCP) in the last link.
+    pub fn tool(&self) -> &Pose {
+        &self.tool
+    }
+
+    /// Where the arm waits, radians; within the limits.
+    pub fn home(&self) -> &[f64] {
+        &self.home
+    }
+
+    /// Largest acceleration of every joint, radians a second squared.
+    pub fn acceleration(&self) -> f64 {
+        self.acceleration
+    }
+
+    /// The gripper.
+    pub fn gripper(&self) -> &GripperModel {
+        &self.gripper
+    }
+
+    /// Whether `q` has one finite value within the limits for each joint.
+    pub fn within_limits(&self, q: &[f64]) -> bool {
+        q.len() == self.joints.len() && self.joints.iter().zip(q).all(|(j, q)| j.allows(*q))
+    }
+
+    /// Poses of the links in `world` at joint positions `q`; as many as [`Self::links`].
+    ///
+    /// # Panics
+    /// When `q` has not one value a joint.
+    pub fn forward(&self, q: &[f64]) -> Vec<Pose> {
+        assert_eq!(q.len(), self.joints.len(), "one position a joint");
+        let mut poses = Vec::with_capacity(self.links.len());
+        let mut pose = self.base;
+        poses.push(pose);
+        for (joint, position) in self.joints.iter().zip(q) {
+            pose *= joint.transform(*position);
+            poses.push(pose);
+        }
+        poses
+    }
+
+    /// Pose of the tool frame in `world` at joint positions `q`.
+    ///
+    /// # Panics
+    /// When `q` has not one value a joint.
+    pub fn tool_pose(&self, q: &[f64]) -> Pose {
+        assert_eq!(q.len(), self.joints.len(), "one position a joint");
+        let chain = self.joints.iter().zip(q);
+        chain.fold(self.base, |pose, (joint, position)| pose * joint.transform(*position))
+            * self.tool
+    }
+
+    /// The geometric Jacobian at `q`: rows 0..3 are the tool point's velocity in `world`
+    /// (m/s), rows 3..6 its angular velocity (rad/s), one column a joint (rad/s).
+    ///
+    /// # Panics
+    /// When `q` has not one value a joint.
+    pub fn jacobian(&self, q: &[f64]) -> Matrix6xX<f64> {
+        let links = self.forward(q);
+        let tip = (links[self.joints.len()] * self.tool).translation.vector;
+        let mut jacobian = Matrix6xX::zeros(self.joints.len());
+        for (i, joint) in self.joints.iter().enumerate() {
+            // A turn about the axis leaves the axis itself in place, so the link behind
+            // the joint gives its direction and a point on it.
+            let axis: Vector3<f64> = links[i + 1] * joint.axis.into_inner();
+            let arm = tip - links[i + 1].translation.vector;
+            jacobian.fixed_view_mut::<3, 1>(0, i).copy_from(&axis.cross(&arm));
+            jacobian.fixed_view_mut::<3, 1>(3, i).copy_from(&axis);
+        }
+        jacobian
+    }
+
+    /// What the robot looks like at joint positions `q` with the pads `opening_m` apart:
+    /// one mesh a body, vertices in `world`.
+    ///
+    /// # Panics
+    /// When `q` has not one value a joint.
+    pub fn meshes(&self, q: &[f64], opening_m: f64) -> Vec<TriangleMesh> {
+        let poses = self.forward(q);
+        let arm = self.links.iter().zip(&poses).flat_map(|(link, pose)| {
+            link.visual.iter().map(move |solid| tessellate(&solid.shape, &(pose * solid.pose)))
+        });
+        let last = poses[self.joints.len()];
+        let hand = self.gripper.visual(opening_m).into_iter();
+        arm.chain(hand.map(|solid| tessellate(&solid.shape, &(last * solid.pose)))).collect()
+    }
+}

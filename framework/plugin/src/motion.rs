@@ -1,0 +1,161 @@
+//! Kind `motion`: key poses -> a program of joint trajectories and grips.
+
+use crate::{GripperCommand, Kinematics, PluginError};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+use seeone_core::Pose;
+use seeone_core::robot::RobotModel;
+
+/// A gripper pose that the skill passes through, with what happens around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeyPose {
+    /// The stage's name.
+    pub stage: String,
+    /// Tool frame (TCP) in `world`.
+    pub pose: Pose,
+    /// Straight approach along the tool's z before the pose, metres; zero for none.
+    pub approach_m: f64,
+    /// Opening of the fingers while approaching, metres.
+    pub opening_m: f64,
+    /// What the gripper does there.
+    pub gripper: Option<GripperCommand>,
+    /// Straight retreat against the tool's z after it, metres; zero for none.
+    pub retreat_m: f64,
+    /// Straight lift along the world's z after it, metres; zero for none.
+    pub lift_m: f64,
+}
+
+/// What the arm must not touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// The half-space below `height_m` (world z), with a soft cover into which the hand
+    /// alone may sink by `soft_m`.
+    Table {
+        /// Top of the cover, metres.
+        height_m: f64,
+        /// How far the hand may sink into it, metres.
+        soft_m: f64,
+    },
+    /// An ellipsoid, e.g. a head.
+    Ellipsoid {
+        /// Its name in reasons.
+        name: String,
+        /// Its centre in `world`.
+        centre: Point3<f64>,
+        /// Its orientation in `world`.
+        rotation: UnitQuaternion<f64>,
+        /// Its semi-axes, metres.
+        semi_axes_m: Vector3<f64>,
+    },
+}
+
+/// One planning problem.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionTask<'a> {
+    /// Where the joints are, radians.
+    pub start: &'a [f64],
+    /// The key poses, in order.
+    pub key_poses: &'a [KeyPose],
+    /// What must not be touched.
+    pub obstacles: &'a [Obstacle],
+}
+
+/// Joint positions at equal steps of time; starts and ends at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointTrajectory {
+    /// Seconds between samples (0.008 for a CB3's 125 Hz).
+    pub period_s: f64,
+    /// Samples: radians, one a joint.
+    pub positions: Vec<Vec<f64>>,
+}
+
+impl JointTrajectory {
+    /// How long it takes, seconds.
+    pub fn duration_s(&self) -> f64 {
+        self.period_s * self.positions.len().saturating_sub(1) as f64
+    }
+
+    /// Joint positions at `time_s`, linear between samples and held beyond the ends;
+    /// `None` when there is no sample.
+    pub fn at(&self, time_s: f64) -> Option<Vec<f64>> {
+        let last = self.positions.len().checked_sub(1)?;
+        let exact = (time_s / self.period_s).clamp(0.0, last as f64);
+        let (from, part) = (exact.floor() as usize, exact.fract());
+        let next = &self.positions[(from + 1).min(last)];
+        Some(self.positions[from].iter().zip(next).map(|(a, b)| a + part * (b - a)).collect())
+    }
+}
+
+/// One thing the robot does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Follow a joint trajectory.
+    Move(JointTrajectory),
+    /// Open or close the gripper.
+    Grip(GripperCommand),
+}
+
+/// An action and the stage it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The stage's name, as in the skill file.
+    pub stage: String,
+    /// What it is for: `approach`, `grip`, `lift`, `transit`, `retreat`.
+    pub purpose: &'static str,
+    /// What is done.
+    pub action: Action,
+}
+
+/// What the robot shall do, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// The steps.
+    pub steps: Vec<Step>,
+}
+
+impl Program {
+    /// Time of all its trajectories, seconds.
+    pub fn duration_s(&self) -> f64 {
+        self.steps
+            .iter()
+            .map(|step| match &step.action {
+                Action::Move(trajectory) => trajectory.duration_s(),
+                Action::Grip(_) => 0.0,
+            })
+            .sum()
+    }
+}
+
+/// What a planner found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionOutcome {
+    /// A program within the robot's limits that touches nothing.
+    Planned {
+        /// The program.
+        program: Program,
+        /// Smaller is better: joint travel and closeness to limits; for choosing among
+        /// equivalent grasps.
+        cost: f64,
+    },
+    /// There is none.
+    Infeasible {
+        /// The stage that cannot be reached.
+        stage: String,
+        /// Why, with numbers.
+        reason: String,
+    },
+}
+
+/// Key poses -> program.
+pub trait Motion: Send + Sync {
+    /// Plans one task.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a start of the wrong length or outside the limits, or
+    /// poses that are not finite.
+    fn plan(
+        &self,
+        robot: &RobotModel,
+        kinematics: &dyn Kinematics,
+        task: &MotionTask,
+    ) -> Result<MotionOutcome, PluginError>;
+}

@@ -1,0 +1,66 @@
+//! Kind `robot`: moves, and says where it is.
+
+use crate::{Action, PluginError};
+
+/// What the gripper shall do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GripperCommand {
+    /// Close until the force is reached, newtons.
+    Close {
+        /// Grip force in newtons.
+        force_n: f64,
+    },
+    /// Open to a distance between the pads, metres.
+    Open {
+        /// Distance between the pads, metres.
+        opening_m: f64,
+    },
+}
+
+/// Where the robot is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotState {
+    /// Joint positions, radians.
+    pub joints: Vec<f64>,
+    /// Distance between the pads, metres.
+    pub opening_m: f64,
+}
+
+/// One moment of an execution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotSample {
+    /// Seconds since the cell's clock started.
+    pub time_s: f64,
+    /// Where the robot was.
+    pub state: RobotState,
+}
+
+/// What the gripper felt after a command; on an AG-95 its own grip state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GripReport {
+    /// Distance between the pads, metres.
+    pub opening_m: f64,
+    /// Whether something is between the pads.
+    pub holding: bool,
+}
+
+/// A robot arm with a gripper.
+pub trait Robot: Send {
+    /// Where it is now.
+    ///
+    /// # Errors
+    /// When the robot does not answer.
+    fn state(&mut self) -> Result<RobotState, PluginError>;
+
+    /// Carries out one action to its end and says what the gripper then feels;
+    /// `watch` sees the robot about thirty times a second on the way.
+    ///
+    /// # Errors
+    /// When the first sample is not where the robot is, a sample breaks a limit, a number
+    /// is not finite, or the robot stopped on the way.
+    fn execute(
+        &mut self,
+        action: &Action,
+        watch: &mut dyn FnMut(&RobotSample),
+    ) -> Result<GripReport, PluginError>;
+}

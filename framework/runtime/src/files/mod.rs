@@ -1,0 +1,33 @@
+//! The files a user writes: skills, scenes and robots.
+//!
+//! Each is TOML of at most 1 MiB with `schema = 1`, in SI units with the unit in the key.
+//! It is parsed into a raw structure that refuses unknown keys, and resolved into a type
+//! that cannot be invalid. Whatever is wrong is a [`seeone_core::Diagnostic`] with file,
+//! line and column.
+
+mod check;
+mod codes;
+mod resolver;
+mod robot_file;
+mod scene;
+mod scene_file;
+mod skill;
+mod skill_file;
+mod skill_text;
+mod source;
+
+pub use check::{check, family_of};
+pub use codes::Family;
+pub use robot_file::RobotFile;
+pub use scene::{Drop, Head, Scene, Table};
+pub use skill::{Demonstration, RelativeTo, Skill, Stage};
+
+use seeone_plugin::Kind;
+use std::collections::BTreeMap;
+
+/// The plugins there are, by kind: what a file may name. A kind that is not in it is not
+/// checked.
+pub type KnownMethods = BTreeMap<Kind, Vec<String>>;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+//! A robot: which plugin moves which arm, and what the description of the arm leaves out.
+
+use super::KnownMethods;
+use super::codes::{Family, Fault};
+use super::resolver::Resolver;
+use super::source::Source;
+use seeone_core::pose::PoseFields;
+use seeone_core::robot::{GripperOptions, RobotModel, RobotOptions};
+use seeone_core::{Diagnostic, Pose};
+use seeone_plugin::Kind;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawRobot {
+    #[serde(rename = "schema")]
+    _schema: u32,
+    name: Spanned<String>,
+    plugin: Spanned<String>,
+    urdf: Spanned<String>,
+    base: Option<Spanned<PoseFields>>,
+    tool_link: Option<String>,
+    home_rad: Option<Spanned<Vec<f64>>>,
+    #[serde(default)]
+    limits: RawLimits,
+    gripper: Option<RawGripper>,
+    #[serde(default)]
+    config: BTreeMap<Spanned<String>, toml::Table>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct RawLimits {
+    acceleration_rad_s2: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawGripper {
+    force_n: [f64; 2],
+    reach_m: Vec<(f64, f64)>,
+}
+
+/// A robot file. The arm itself is checked when [`RobotFile::model`] reads it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotFile {
+    /// Its name.
+    pub name: String,
+    /// The robot plugin that moves it.
+    pub plugin: String,
+    /// The description of the arm.
+    pub urdf: PathBuf,
+    /// What the description leaves out: base pose, tool link, home, limits, gripper.
+    pub options: RobotOptions,
+    /// Tables of configuration by plugin kind, e.g. `[config.motion]`; each plugin checks
+    /// its own.
+    pub config: BTreeMap<Kind, toml::Table>,
+}
+
+impl RobotFile {
+    /// Reads and checks a robot file.
+    ///
+    /// # Errors
+    /// Every fault found, codes `B0xx`.
+    pub fn read(path: &Path, known: &KnownMethods) -> Result<Self, Vec<Diagnostic>> {
+        let source = Source::open(Family::Robot, path).map_err(|fault| vec![fault])?;
+        let raw: RawRobot = source.parse()?;
+        let mut resolver = Resolver::new(&source);
+        let name = raw.plugin.get_ref();
+        if let Some(known) = known.get(&Kind::Robot)
+            && !known.contains(name)
+        {
+            let cause = format!("there is no robot plugin {name:?}");
+            let fault = source.fault(Fault::Reference, raw.plugin.span(), cause);
+            resolver.note(fault.suggest(name, known.iter().map(String::as_str)));
+        }
+        let file = Self {
+            name: resolver.name("name", &raw.name),
+            plugin: name.clone(),
+            urdf: resolver.file("urdf", &raw.urdf),
+            config: config(&mut resolver, &raw.config),
+            options: options(&mut resolver, raw),
+        };
+        resolver.finish(file)
+    }
+
+    /// The robot that the file describes.
+    ///
+    /// # Errors
+    /// `R0xx` when the description, or an option against it, is wrong.
+    pub fn model(&self) -> Result<RobotModel, Diagnostic> {
+        RobotModel::from_urdf(&self.urdf, &self.options)
+    }
+}
+
+fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
+    let default = RobotOptions::default();
+    let acceleration = raw.limits.acceleration_rad_s2.as_ref();
+    RobotOptions {
+        base: raw.base.as_ref().map_or_else(Pose::identity, |pose| resolver.pose("base", pose)),
+        tool_link: raw.tool_link.unwrap_or(default.tool_link),
+        home: raw.home_rad.map(Spanned::into_inner),
+        acceleration: resolver.number_or(
+            "acceleration_rad_s2",
+            acceleration,
+            default.acceleration,
+            0.1..=100.0,
+        ),
+        gripper: raw.gripper.map_or(default.gripper, |gripper| GripperOptions {
+            force_n: gripper.force_n,
+            reach_m: gripper.reach_m,
+        }),
+    }
+}
+
+fn config(
+    resolver: &mut Resolver,
+    raw: &BTreeMap<Spanned<String>, toml::Table>,
+) -> BTreeMap<Kind, toml::Table> {
+    let mut config = BTreeMap::new();
+    for (key, table) in raw {
+        match key.get_ref().parse::<Kind>() {
+            Ok(kind) => {
+                config.insert(kind, table.clone());
+            }
+            Err(()) => {
+                let cause = format!("there is no plugin kind \"{}\"", key.get_ref());
+                let fault = resolver.source.fault(Fault::UnknownKey, key.span(), cause);
+                resolver.note(fault.suggest(key.get_ref(), Kind::ALL.map(Kind::name)));
+            }
+        }
+    }
+    config
+}

@@ -1,0 +1,145 @@
+//! Reading a scene.
+
+use super::codes::{Family, Fault};
+use super::resolver::Resolver;
+use super::source::Source;
+use super::{Drop, Head, KnownMethods, Scene, Table};
+use nalgebra::{Point2, Vector2};
+use seeone_core::pose::PoseFields;
+use seeone_core::{Diagnostic, Intrinsics};
+use seeone_plugin::Kind;
+use serde::Deserialize;
+use std::path::Path;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawScene {
+    #[serde(rename = "schema")]
+    _schema: u32,
+    name: Spanned<String>,
+    object: Spanned<String>,
+    table: RawTable,
+    head: RawHead,
+    camera: RawCamera,
+    drop: RawDrop,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawTable {
+    height_m: Option<Spanned<f64>>,
+    soft_m: Option<Spanned<f64>>,
+    friction: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawHead {
+    pose: Spanned<PoseFields>,
+    semi_axes_m: Spanned<[f64; 3]>,
+    friction: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCamera {
+    plugin: Option<Spanned<String>>,
+    cloud: Option<Spanned<String>>,
+    pose: Spanned<PoseFields>,
+    intrinsics: Spanned<Intrinsics>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawDrop {
+    centre_xy_m: Spanned<[f64; 2]>,
+    half_extents_m: Spanned<[f64; 2]>,
+    crop_height_m: Spanned<f64>,
+    height_m: Spanned<f64>,
+}
+
+/// How far the hand may sink into the mat when the file does not say it, metres.
+const SOFT_M: f64 = 0.03;
+/// The farthest coordinate of a table or a drop zone, metres.
+const FARTHEST_M: f64 = 5.0;
+/// The most pixels of an image.
+const MOST_PIXELS: usize = 4 << 20;
+
+impl Scene {
+    /// Reads and checks a scene.
+    ///
+    /// # Errors
+    /// Every fault found, codes `C0xx`.
+    pub fn read(path: &Path, known: &KnownMethods) -> Result<Self, Vec<Diagnostic>> {
+        let source = Source::open(Family::Scene, path).map_err(|fault| vec![fault])?;
+        let raw: RawScene = source.parse()?;
+        let mut resolver = Resolver::new(&source);
+        let height = raw.table.height_m.as_ref();
+        let scene = Scene {
+            name: resolver.name("name", &raw.name),
+            object: resolver.name("object", &raw.object),
+            table: Table {
+                height_m: resolver.number_or("height_m", height, 0.0, -FARTHEST_M..=FARTHEST_M),
+                soft_m: resolver.number_or("soft_m", raw.table.soft_m.as_ref(), SOFT_M, 0.0..=0.2),
+                friction: resolver.number("friction", &raw.table.friction, 0.0..=2.0),
+            },
+            head: Head {
+                pose: resolver.pose("pose", &raw.head.pose),
+                semi_axes_m: resolver.vector("semi_axes_m", &raw.head.semi_axes_m, 0.01..=0.5),
+                friction: resolver.number("friction", &raw.head.friction, 0.0..=2.0),
+            },
+            camera_plugin: camera_plugin(&mut resolver, raw.camera.plugin.as_ref(), known),
+            camera_cloud: raw.camera.cloud.as_ref().map(|cloud| {
+                let path = resolver.file("cloud", cloud);
+                // A plugin resolves paths against another folder than this file's.
+                path.canonicalize().unwrap_or(path)
+            }),
+            camera: resolver.pose("pose", &raw.camera.pose),
+            intrinsics: intrinsics(&mut resolver, &raw.camera.intrinsics),
+            drop: drop_zone(&mut resolver, &raw.drop),
+        };
+        resolver.finish(scene)
+    }
+}
+
+fn camera_plugin(
+    resolver: &mut Resolver,
+    raw: Option<&Spanned<String>>,
+    known: &KnownMethods,
+) -> Option<String> {
+    let raw = raw?;
+    let name = raw.get_ref();
+    if let Some(known) = known.get(&Kind::Camera)
+        && !known.contains(name)
+    {
+        let cause = format!("there is no camera plugin {name:?}");
+        let fault = resolver.source.fault(Fault::Reference, raw.span(), cause);
+        resolver.note(fault.suggest(name, known.iter().map(String::as_str)));
+    }
+    Some(name.clone())
+}
+
+fn intrinsics(resolver: &mut Resolver, raw: &Spanned<Intrinsics>) -> Intrinsics {
+    let lens = *raw.get_ref();
+    let pixels = lens.width.saturating_mul(lens.height);
+    if pixels == 0 || pixels > MOST_PIXELS {
+        let cause = format!("an image of {} x {} pixels", lens.width, lens.height);
+        resolver.fault(Fault::Range, raw.span(), cause);
+    }
+    if lens.fx <= 0.0 || lens.fy <= 0.0 {
+        resolver.fault(Fault::Range, raw.span(), "the focal lengths fx and fy must be positive");
+    }
+    lens
+}
+
+fn drop_zone(resolver: &mut Resolver, raw: &RawDrop) -> Drop {
+    let centre = resolver.numbers("centre_xy_m", &raw.centre_xy_m, -FARTHEST_M..=FARTHEST_M);
+    let half = resolver.numbers("half_extents_m", &raw.half_extents_m, 0.01..=FARTHEST_M);
+    Drop {
+        centre: Point2::from(centre),
+        half_extents_m: Vector2::from(half),
+        crop_height_m: resolver.number("crop_height_m", &raw.crop_height_m, 0.01..=FARTHEST_M),
+        height_m: resolver.number("height_m", &raw.height_m, 0.0..=1.0),
+    }
+}

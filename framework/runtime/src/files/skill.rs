@@ -1,0 +1,78 @@
+//! A skill: one demonstration of one manipulation.
+
+use nalgebra::Point3;
+use seeone_core::Pose;
+use seeone_plugin::{GripperCommand, Kind, Measure};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// What a stage's gripper pose moves with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RelativeTo {
+    /// With the object: the pose goes through the canonical state (method: Eq. 6 to 9).
+    Object,
+    /// With a frame of the scene, e.g. `head`.
+    Frame(String),
+}
+
+/// A gripper pose of the demonstration and what happens around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Its name, unique in the skill.
+    pub name: String,
+    /// What the pose moves with.
+    pub relative_to: RelativeTo,
+    /// The demonstrated tool frame (TCP) in `world`.
+    pub gripper_pose: Pose,
+    /// Straight approach along the tool's z, metres.
+    pub approach_m: f64,
+    /// Opening of the fingers while approaching, metres.
+    pub opening_m: f64,
+    /// What the gripper does at the pose.
+    pub gripper: Option<GripperCommand>,
+    /// Straight retreat against the tool's z, metres.
+    pub retreat_m: f64,
+    /// Straight lift along the world's z, metres.
+    pub lift_m: f64,
+    /// By how much the grasp may be turned about the tool's closing axis without spoiling
+    /// it, degrees either way; zero for not at all.
+    pub turn_about_closing_deg: f64,
+}
+
+/// What was seen when the skill was shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demonstration {
+    /// The PLY file of the object's points in `world`, metres, before the first stage.
+    pub cloud: PathBuf,
+    /// Where the camera stood in `world`, metres.
+    pub camera_position: Point3<f64>,
+    /// Poses of the scene's frames in `world`.
+    pub frames: BTreeMap<String, Pose>,
+}
+
+/// A skill. One that was read from a file has at least one stage, the first of which moves
+/// with the object; names are unique; every frame a stage names is in the demonstration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Skill {
+    /// Its name.
+    pub name: String,
+    /// The category of objects it is for.
+    pub category: String,
+    /// What it does, in a sentence.
+    pub summary: String,
+    /// What was seen.
+    pub demonstration: Demonstration,
+    /// The key poses, in order.
+    pub stages: Vec<Stage>,
+    /// Names of plugins, where the skill asks for one.
+    pub methods: BTreeMap<Kind, String>,
+    /// What counts as success.
+    pub measure: Measure,
+}
+
+impl Stage {
+    /// Opening while approaching when the file does not say it, metres.
+    pub const OPENING_M: f64 = 0.03;
+    /// Turn about the closing axis when the file does not say it, degrees.
+    pub const TURN_ABOUT_CLOSING_DEG: f64 = 90.0;
+}

@@ -1,0 +1,235 @@
+//! Reading a skill.
+
+use super::codes::{Family, Fault};
+use super::resolver::Resolver;
+use super::source::Source;
+use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
+use nalgebra::Point3;
+use seeone_core::Diagnostic;
+use seeone_core::pose::PoseFields;
+use seeone_plugin::{GripperCommand, Kind, Measure};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use toml::Spanned;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSkill {
+    #[serde(rename = "schema")]
+    _schema: u32,
+    name: Spanned<String>,
+    category: Spanned<String>,
+    #[serde(default)]
+    summary: String,
+    demonstration: RawDemonstration,
+    #[serde(default)]
+    stage: Vec<Spanned<RawStage>>,
+    #[serde(default)]
+    methods: BTreeMap<Spanned<String>, Spanned<String>>,
+    success: RawSuccess,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawDemonstration {
+    cloud: Spanned<String>,
+    camera_xyz_m: Spanned<[f64; 3]>,
+    #[serde(default)]
+    frames: BTreeMap<Spanned<String>, Spanned<PoseFields>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawStage {
+    name: Spanned<String>,
+    relative_to: Spanned<String>,
+    gripper_pose: Spanned<PoseFields>,
+    approach_m: Option<Spanned<f64>>,
+    opening_m: Option<Spanned<f64>>,
+    gripper: Option<Spanned<RawGripper>>,
+    retreat_m: Option<Spanned<f64>>,
+    lift_m: Option<Spanned<f64>>,
+    turn_about_closing_deg: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawGripper {
+    close_n: Option<Spanned<f64>>,
+    open_m: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSuccess {
+    measure: Spanned<String>,
+    tolerance_d: Spanned<f64>,
+}
+
+/// The longest straight line a stage may ask for, metres.
+const LONGEST_LINE_M: f64 = 0.5;
+/// The widest gripper opening a stage may ask for, metres.
+const WIDEST_M: f64 = 0.2;
+/// The largest grip force a stage may ask for, newtons.
+const STRONGEST_N: f64 = 200.0;
+/// The farthest coordinate of a camera, metres.
+const FARTHEST_M: f64 = 10.0;
+
+impl Skill {
+    /// Reads and checks a skill; the cloud it names must exist but is not read.
+    ///
+    /// # Errors
+    /// Every fault found, codes `S0xx`.
+    pub fn read(path: &Path, known: &KnownMethods) -> Result<Self, Vec<Diagnostic>> {
+        let source = Source::open(Family::Skill, path).map_err(|fault| vec![fault])?;
+        let raw: RawSkill = source.parse()?;
+        let mut resolver = Resolver::new(&source);
+        let demonstration = demonstration(&mut resolver, &raw.demonstration);
+        let skill = Skill {
+            name: resolver.name("name", &raw.name),
+            category: resolver.name("category", &raw.category),
+            summary: raw.summary,
+            stages: stages(&mut resolver, &raw.stage, &demonstration),
+            demonstration,
+            methods: methods(&mut resolver, &raw.methods, known),
+            measure: measure(&mut resolver, &raw.success),
+        };
+        resolver.finish(skill)
+    }
+}
+
+fn demonstration(resolver: &mut Resolver, raw: &RawDemonstration) -> Demonstration {
+    let mut frames = BTreeMap::new();
+    for (name, pose) in &raw.frames {
+        let pose = resolver.pose("frames", pose);
+        frames.insert(resolver.name("frames", name), pose);
+    }
+    let camera = resolver.vector("camera_xyz_m", &raw.camera_xyz_m, -FARTHEST_M..=FARTHEST_M);
+    Demonstration {
+        cloud: resolver.file("cloud", &raw.cloud),
+        camera_position: Point3::from(camera),
+        frames,
+    }
+}
+
+fn stages(
+    resolver: &mut Resolver,
+    raw: &[Spanned<RawStage>],
+    demonstration: &Demonstration,
+) -> Vec<Stage> {
+    match raw.first() {
+        None => resolver.fault(Fault::Order, 0..0, "the skill has no [[stage]]"),
+        Some(first) if first.get_ref().relative_to.get_ref() != "object" => {
+            let at = first.get_ref().relative_to.span();
+            let cause = "the first stage must be relative to \"object\": it is what is taken";
+            resolver.fault(Fault::Order, at, cause);
+        }
+        Some(_) => {}
+    }
+    let mut stages: Vec<Stage> = Vec::with_capacity(raw.len());
+    for raw in raw.iter().map(Spanned::get_ref) {
+        if stages.iter().any(|stage| stage.name == *raw.name.get_ref()) {
+            let cause = format!("a second stage is named {:?}", raw.name.get_ref());
+            resolver.fault(Fault::Name, raw.name.span(), cause);
+        }
+        stages.push(stage(resolver, raw, demonstration));
+    }
+    stages
+}
+
+fn stage(resolver: &mut Resolver, raw: &RawStage, demonstration: &Demonstration) -> Stage {
+    let line = 0.0..=LONGEST_LINE_M;
+    Stage {
+        name: resolver.name("name", &raw.name),
+        relative_to: relative_to(resolver, &raw.relative_to, demonstration),
+        gripper_pose: resolver.pose("gripper_pose", &raw.gripper_pose),
+        approach_m: resolver.number_or("approach_m", raw.approach_m.as_ref(), 0.0, line.clone()),
+        opening_m: resolver.number_or(
+            "opening_m",
+            raw.opening_m.as_ref(),
+            Stage::OPENING_M,
+            0.0..=WIDEST_M,
+        ),
+        gripper: raw.gripper.as_ref().and_then(|gripper| command(resolver, gripper)),
+        retreat_m: resolver.number_or("retreat_m", raw.retreat_m.as_ref(), 0.0, line.clone()),
+        lift_m: resolver.number_or("lift_m", raw.lift_m.as_ref(), 0.0, line),
+        turn_about_closing_deg: resolver.number_or(
+            "turn_about_closing_deg",
+            raw.turn_about_closing_deg.as_ref(),
+            Stage::TURN_ABOUT_CLOSING_DEG,
+            0.0..=180.0,
+        ),
+    }
+}
+
+fn relative_to(
+    resolver: &mut Resolver,
+    raw: &Spanned<String>,
+    demonstration: &Demonstration,
+) -> RelativeTo {
+    let name = raw.get_ref();
+    if name == "object" {
+        return RelativeTo::Object;
+    }
+    if !demonstration.frames.contains_key(name) {
+        let known = demonstration.frames.keys().map(String::as_str).chain(["object"]);
+        let cause = format!("the demonstration has no frame {name:?}");
+        let fault = resolver.source.fault(Fault::Reference, raw.span(), cause);
+        resolver.note(fault.suggest(name, known));
+    }
+    RelativeTo::Frame(name.clone())
+}
+
+fn command(resolver: &mut Resolver, raw: &Spanned<RawGripper>) -> Option<GripperCommand> {
+    match (&raw.get_ref().close_n, &raw.get_ref().open_m) {
+        (Some(force), None) => Some(GripperCommand::Close {
+            force_n: resolver.number("close_n", force, 0.0..=STRONGEST_N),
+        }),
+        (None, Some(opening)) => Some(GripperCommand::Open {
+            opening_m: resolver.number("open_m", opening, 0.0..=WIDEST_M),
+        }),
+        _ => {
+            let cause = "a gripper either closes with close_n or opens to open_m";
+            resolver.fault(Fault::Order, raw.span(), cause);
+            None
+        }
+    }
+}
+
+fn methods(
+    resolver: &mut Resolver,
+    raw: &BTreeMap<Spanned<String>, Spanned<String>>,
+    known: &KnownMethods,
+) -> BTreeMap<Kind, String> {
+    // Robot and camera belong to the cell: a skill runs on any that reaches and sees.
+    let kinds = Kind::ALL.into_iter().filter(|kind| !matches!(kind, Kind::Robot | Kind::Camera));
+    let mut methods = BTreeMap::new();
+    for (key, name) in raw {
+        let Some(kind) = kinds.clone().find(|kind| kind.name() == key.get_ref()) else {
+            let cause = format!("unknown key \"{}\"", key.get_ref());
+            let fault = resolver.source.fault(Fault::UnknownKey, key.span(), cause);
+            resolver.note(fault.suggest(key.get_ref(), kinds.clone().map(Kind::name)));
+            continue;
+        };
+        if let Some(known) = known.get(&kind)
+            && !known.contains(name.get_ref())
+        {
+            let cause = format!("there is no {kind} plugin {:?}", name.get_ref());
+            let fault = resolver.source.fault(Fault::Reference, name.span(), cause);
+            resolver.note(fault.suggest(name.get_ref(), known.iter().map(String::as_str)));
+        }
+        methods.insert(kind, name.get_ref().clone());
+    }
+    methods
+}
+
+fn measure(resolver: &mut Resolver, raw: &RawSuccess) -> Measure {
+    let name = raw.measure.get_ref();
+    if name != "worn" {
+        let cause = format!("there is no measure {name:?}");
+        let fault = resolver.source.fault(Fault::Reference, raw.measure.span(), cause);
+        resolver.note(fault.suggest(name, ["worn"]));
+    }
+    Measure::Worn { tolerance_d: resolver.number("tolerance_d", &raw.tolerance_d, 1e-3..=1.0) }
+}

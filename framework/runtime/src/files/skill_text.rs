@@ -1,0 +1,95 @@
+//! Writing a skill, as `teach` does: text that reads back to the same skill.
+
+use super::{RelativeTo, Skill, Stage};
+use seeone_core::pose::PoseFields;
+use seeone_core::{Diagnostic, Pose};
+use seeone_plugin::{GripperCommand, Measure};
+use std::fmt::Write;
+use std::path::Path;
+
+impl Skill {
+    /// The text of this skill's file, which lies in `folder`: the cloud is named from there.
+    ///
+    /// # Errors
+    /// `S024` when the cloud does not lie below `folder`.
+    pub fn to_toml(&self, folder: &Path) -> Result<String, Diagnostic> {
+        let cloud = self.demonstration.cloud.strip_prefix(folder).map_err(|_| {
+            Diagnostic::new("S024", "the cloud does not lie in the skill's own folder")
+                .in_file(&self.demonstration.cloud)
+        })?;
+        let mut text = String::from("schema = 1\n");
+        line(&mut text, "name", quoted(&self.name));
+        line(&mut text, "category", quoted(&self.category));
+        line(&mut text, "summary", quoted(&self.summary));
+        text.push_str("\n[demonstration]\n");
+        line(&mut text, "cloud", quoted(&cloud.to_string_lossy()));
+        let camera: [f64; 3] = self.demonstration.camera_position.into();
+        line(&mut text, "camera_xyz_m", numbers(&camera));
+        for (name, frame) in &self.demonstration.frames {
+            line(&mut text, &format!("frames.{name}"), pose(frame));
+        }
+        for stage in &self.stages {
+            stage_text(&mut text, stage);
+        }
+        if !self.methods.is_empty() {
+            text.push_str("\n[methods]\n");
+            for (kind, name) in &self.methods {
+                line(&mut text, kind.name(), quoted(name));
+            }
+        }
+        let Measure::Worn { tolerance_d } = self.measure;
+        text.push_str("\n[success]\nmeasure = \"worn\"\n");
+        line(&mut text, "tolerance_d", number(tolerance_d));
+        Ok(text)
+    }
+}
+
+fn stage_text(text: &mut String, stage: &Stage) {
+    text.push_str("\n[[stage]]\n");
+    line(text, "name", quoted(&stage.name));
+    line(
+        text,
+        "relative_to",
+        match &stage.relative_to {
+            RelativeTo::Object => quoted("object"),
+            RelativeTo::Frame(name) => quoted(name),
+        },
+    );
+    line(text, "gripper_pose", pose(&stage.gripper_pose));
+    line(text, "approach_m", number(stage.approach_m));
+    line(text, "opening_m", number(stage.opening_m));
+    match stage.gripper {
+        Some(GripperCommand::Close { force_n }) => {
+            line(text, "gripper", format!("{{ close_n = {} }}", number(force_n)));
+        }
+        Some(GripperCommand::Open { opening_m }) => {
+            line(text, "gripper", format!("{{ open_m = {} }}", number(opening_m)));
+        }
+        None => {}
+    }
+    line(text, "retreat_m", number(stage.retreat_m));
+    line(text, "lift_m", number(stage.lift_m));
+    line(text, "turn_about_closing_deg", number(stage.turn_about_closing_deg));
+}
+
+fn line(text: &mut String, key: &str, value: impl AsRef<str>) {
+    writeln!(text, "{key} = {}", value.as_ref()).expect("a string takes any text");
+}
+
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+/// The shortest text that reads back to the same number, with a point in it.
+fn number(value: f64) -> String {
+    toml::Value::from(value).to_string()
+}
+
+fn numbers(values: &[f64]) -> String {
+    format!("[{}]", values.iter().copied().map(number).collect::<Vec<_>>().join(", "))
+}
+
+fn pose(pose: &Pose) -> String {
+    let fields = PoseFields::from(pose);
+    format!("{{ xyz_m = {}, quat_xyzw = {} }}", numbers(&fields.xyz_m), numbers(&fields.quat_xyzw))
+}

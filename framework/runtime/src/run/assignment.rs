@@ -1,0 +1,121 @@
+//! What a run is to do, whole and checked.
+
+use crate::files::{RelativeTo, Scene, Skill};
+use crate::methods::Methods;
+use crate::record::pose;
+use bevy_ecs::component::Component;
+use seeone_core::formats::ply;
+use seeone_core::robot::RobotModel;
+use seeone_core::{Cloud, Diagnostic, Pose};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What a run is to do. The frames that the skill's stages name are in the scene, and the
+/// demonstration's cloud has been read.
+#[derive(Component, Clone, Debug)]
+pub struct Assignment {
+    /// At least one stage.
+    pub(super) skill: Skill,
+    pub(super) scene: Scene,
+    pub(super) robot: RobotModel,
+    pub(super) methods: Methods,
+    pub(super) demonstration: Cloud,
+    pub(super) frames: BTreeMap<String, Pose>,
+    /// The object's name, for the report.
+    pub object: String,
+    /// The robot file's name, for the report.
+    pub robot_name: String,
+    /// The seed of the run.
+    pub seed: u64,
+    /// Whether to stop after planning.
+    pub dry_run: bool,
+    /// Where to write the recording, if at all.
+    pub recording: Option<PathBuf>,
+    /// What else must be known to repeat the run: versions, hashes of weights.
+    pub provenance: BTreeMap<String, String>,
+}
+
+impl Assignment {
+    /// An assignment with seed 0 that is carried out and not recorded.
+    ///
+    /// # Errors
+    /// `P0xx` when the demonstration's cloud cannot be read, `M005` when the skill has no
+    /// stage or the scene lacks a frame that it needs.
+    pub fn new(
+        skill: Skill,
+        scene: Scene,
+        robot: RobotModel,
+        methods: Methods,
+    ) -> Result<Self, Diagnostic> {
+        if skill.stages.is_empty() {
+            return Err(Diagnostic::new("M005", format!("skill {:?} has no stage", skill.name)));
+        }
+        let demonstration = ply::read_cloud(&skill.demonstration.cloud)?;
+        let mut frames = BTreeMap::new();
+        for stage in &skill.stages {
+            if let RelativeTo::Frame(name) = &stage.relative_to {
+                let pose = scene.frame(name).ok_or_else(|| {
+                    let (skill, scene) = (&skill.name, &scene.name);
+                    let cause = format!(
+                        "skill {skill:?} needs the frame {name:?}, which scene {scene:?} has not"
+                    );
+                    Diagnostic::new("M005", cause)
+                })?;
+                frames.insert(name.clone(), pose);
+            }
+        }
+        Ok(Self {
+            object: scene.object.clone(),
+            robot_name: robot.name().to_owned(),
+            seed: 0,
+            dry_run: false,
+            recording: None,
+            provenance: BTreeMap::new(),
+            skill,
+            scene,
+            robot,
+            methods,
+            demonstration,
+            frames,
+        })
+    }
+}
+
+impl Assignment {
+    /// The robot that carries it out.
+    pub fn robot(&self) -> &RobotModel {
+        &self.robot
+    }
+
+    /// Which plugin does what.
+    pub fn methods(&self) -> &Methods {
+        &self.methods
+    }
+
+    /// Everything that is needed to repeat the run, for its recording.
+    pub(crate) fn to_json(&self) -> Value {
+        // The cloud is named by its file alone: where the files lie is not part of the run.
+        let folder = self.skill.demonstration.cloud.parent().unwrap_or(Path::new(""));
+        let Scene { name, table, head, camera, drop, .. } = &self.scene;
+        json!({
+            "skill": self.skill.to_toml(folder).unwrap_or_else(|fault| fault.to_string()),
+            "object": self.object,
+            "robot": self.robot_name,
+            "scene": {
+                "name": name,
+                "table_height_m": table.height_m,
+                "table_friction": table.friction,
+                "head": pose(&head.pose),
+                "head_semi_axes_m": head.semi_axes_m.as_slice(),
+                "head_friction": head.friction,
+                "camera": pose(camera),
+                "drop_centre_xy_m": drop.centre.coords.as_slice(),
+                "drop_height_m": drop.height_m,
+            },
+            "seed": self.seed,
+            "methods": self.methods.iter().map(|(kind, name)| (kind.name(), name)).collect::<BTreeMap<_, _>>(),
+            "provenance": self.provenance,
+        })
+    }
+}

@@ -1,0 +1,87 @@
+//! Where a run's plugins stand, and who is told of what they do.
+
+use super::step::{Failed, StageEvent, Step};
+use crate::plugins::Plugins;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What the caller hands in.
+pub struct Hooks {
+    /// Seconds of any clock that only goes forward; for the report's timings alone.
+    pub clock: Box<dyn FnMut() -> f64>,
+    /// Told of every step and stage as it ends.
+    pub progress: Box<dyn FnMut(&StageEvent)>,
+}
+
+impl Default for Hooks {
+    /// A clock that stands still, and nobody told.
+    fn default() -> Self {
+        Self { clock: Box::new(|| 0.0), progress: Box::new(|_| {}) }
+    }
+}
+
+/// The plugins with what is to be reported of their work. The one resource of the ECS
+/// world that is not plain data.
+pub(super) struct Bench {
+    pub(super) plugins: Plugins,
+    hooks: Hooks,
+    pub(super) events: Vec<StageEvent>,
+    pub(super) timings_ms: Vec<(Step, f64)>,
+}
+
+impl Bench {
+    pub(super) fn new(plugins: Plugins, hooks: Hooks) -> Self {
+        Self { plugins, hooks, events: Vec::new(), timings_ms: Vec::new() }
+    }
+
+    /// Does the work of a step, timed and told. A panic of a plugin is a failure of the
+    /// step and not the end of the host.
+    pub(super) fn step<T>(
+        &mut self,
+        step: Step,
+        work: impl FnOnce(&mut Plugins) -> Result<T, String>,
+    ) -> Result<T, Failed> {
+        let (done, seconds) = self.timed(step, |plugins, _| work(plugins));
+        self.tell(StageEvent {
+            name: step.name().into(),
+            ok: done.is_ok(),
+            seconds,
+            reason: done.as_ref().err().cloned(),
+        });
+        done.map_err(|reason| Failed { stage: step.name().into(), reason })
+    }
+
+    /// Does and times the work of a step that tells of its own stages by the second
+    /// argument of `work`; with the seconds it took.
+    pub(super) fn timed<T>(
+        &mut self,
+        step: Step,
+        work: impl FnOnce(&mut Plugins, &mut dyn FnMut(StageEvent)) -> Result<T, String>,
+    ) -> (Result<T, String>, f64) {
+        let start = (self.hooks.clock)();
+        let Self { plugins, hooks, events, .. } = self;
+        let mut tell = |event: StageEvent| {
+            (hooks.progress)(&event);
+            events.push(event);
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| work(plugins, &mut tell)))
+            .unwrap_or_else(|panic| Err(format!("a plugin panicked: {}", told(&*panic))));
+        let seconds = (self.hooks.clock)() - start;
+        self.timings_ms.push((step, seconds * 1e3));
+        (done, seconds)
+    }
+
+    /// Reports one step or stage.
+    pub(super) fn tell(&mut self, event: StageEvent) {
+        (self.hooks.progress)(&event);
+        self.events.push(event);
+    }
+}
+
+fn told(panic: &(dyn Any + Send)) -> &str {
+    panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("without a message")
+}

@@ -1,0 +1,47 @@
+//! One run of a skill: an entity to which each step adds what it found.
+//!
+//! | step | takes | leaves |
+//! |---|---|---|
+//! | observe | scene, camera | [`Seen`] |
+//! | perceive | both clouds | [`Perceived`] |
+//! | encode | both canonical clouds | [`Encoded`] |
+//! | transfer | both fields | [`Transferred`] |
+//! | plan | candidates, robot, scene | [`Planned`] |
+//! | act | program | [`Acted`] |
+//! | judge | the world | [`Judged`] |
+//! | record | all of it | a recording |
+//!
+//! A step that cannot do its work leaves [`Failed`], and the steps after it are passed over;
+//! judging and recording are not, so that every run ends with a verdict and a whole file.
+//! The schedule is single-threaded and chained; no step reads a clock but the one that is
+//! handed in, and nothing of that goes into a recording.
+
+mod act;
+mod assignment;
+mod bench;
+mod encode;
+mod judge;
+mod observe;
+mod outcome;
+mod perceive;
+mod plan;
+mod record;
+mod schedule;
+mod step;
+mod transfer;
+
+pub use act::{Acted, Snapshot};
+pub use assignment::Assignment;
+pub use bench::Hooks;
+pub use encode::Encoded;
+pub use judge::Judged;
+pub use observe::Seen;
+pub use outcome::Outcome;
+pub use perceive::Perceived;
+pub use plan::Planned;
+pub use schedule::{Finished, run};
+pub use step::{Failed, StageEvent, Step};
+pub use transfer::{Grasp, Transferred};
+
+#[cfg(test)]
+mod tests;

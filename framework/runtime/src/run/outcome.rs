@@ -1,0 +1,89 @@
+//! What is told of a run.
+
+use super::assignment::Assignment;
+use super::bench::Bench;
+use super::record::Recorded;
+use super::step::{Failed, StageEvent, Step};
+use seeone_plugin::{Kind, Verdict};
+use serde::{Serialize, Serializer};
+use std::path::PathBuf;
+
+/// What is told of a run: the one object that `run --json` prints.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Outcome {
+    /// The skill's name.
+    pub skill: String,
+    /// The object's name.
+    pub object: String,
+    /// The robot's name.
+    pub robot: String,
+    /// The seed.
+    pub seed: u64,
+    /// Which plugin did what.
+    #[serde(serialize_with = "methods")]
+    pub methods: Vec<(Kind, String)>,
+    /// Held after the lift; `None` when nobody could tell, as after a dry run.
+    pub grasped: Option<bool>,
+    /// Within the skill's tolerance; `None` when nobody could tell.
+    pub success: Option<bool>,
+    /// Mean vertex distance to the worn state, metres.
+    pub error_m: Option<f64>,
+    /// The same as a share of the object's diameter.
+    pub error_d: Option<f64>,
+    /// Angle between the worn and the reached up axis, degrees.
+    pub tilt_deg: Option<f64>,
+    /// Angle about the up axis between worn and reached, degrees.
+    pub yaw_deg: Option<f64>,
+    /// Why it failed, or by how much it succeeded.
+    pub reason: String,
+    /// How each step and each stage of the skill ended, in order.
+    pub stages: Vec<StageEvent>,
+    /// Time of each step by the clock that was handed in, milliseconds.
+    #[serde(serialize_with = "timings")]
+    pub timings_ms: Vec<(Step, f64)>,
+    /// Where the recording lies.
+    pub recording: Option<PathBuf>,
+}
+
+impl Outcome {
+    pub(super) fn new(
+        assignment: &Assignment,
+        bench: &Bench,
+        verdict: Option<&Verdict>,
+        failed: Option<&Failed>,
+        recorded: Option<&Recorded>,
+    ) -> Self {
+        let reason = match (failed, verdict) {
+            (Some(failed), _) => format!("{}: {}", failed.stage, failed.reason),
+            (None, Some(verdict)) => verdict.reason.clone(),
+            (None, None) if assignment.dry_run => "planned, not carried out".into(),
+            (None, None) => "carried out; nobody can judge this cell".into(),
+        };
+        let methods = assignment.methods.iter().map(|(kind, name)| (kind, name.to_owned()));
+        Self {
+            skill: assignment.skill.name.clone(),
+            object: assignment.object.clone(),
+            robot: assignment.robot_name.clone(),
+            seed: assignment.seed,
+            methods: methods.collect(),
+            grasped: verdict.map(|verdict| verdict.grasped),
+            success: verdict.map(|verdict| verdict.success),
+            error_m: verdict.and_then(|verdict| verdict.error_m),
+            error_d: verdict.and_then(|verdict| verdict.error_d),
+            tilt_deg: verdict.and_then(|verdict| verdict.tilt_deg),
+            yaw_deg: verdict.and_then(|verdict| verdict.yaw_deg),
+            reason,
+            stages: bench.events.clone(),
+            timings_ms: bench.timings_ms.clone(),
+            recording: recorded.map(|recorded| recorded.0.clone()),
+        }
+    }
+}
+
+fn methods<S: Serializer>(methods: &[(Kind, String)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(methods.iter().map(|(kind, name)| (kind.name(), name)))
+}
+
+fn timings<S: Serializer>(timings: &[(Step, f64)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(timings.iter().map(|(step, ms)| (step.name(), ms)))
+}

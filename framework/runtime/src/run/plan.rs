@@ -1,0 +1,118 @@
+//! From grasps to a program: the best grasp that the robot can carry through to the end.
+
+use super::assignment::Assignment;
+use super::bench::Bench;
+use super::schedule::leave;
+use super::step::{Failed, Step};
+use super::transfer::{Grasp, Transferred};
+use crate::files::RelativeTo;
+use crate::plugins::Plugins;
+use crate::transfer::{Turn, carried, relation, turns};
+use bevy_ecs::prelude::*;
+use seeone_core::Pose;
+use seeone_plugin::{KeyPose, MotionOutcome, MotionTask, Program};
+
+/// The most grasps that are tried: they differ by millimetres, so what is out of reach for
+/// several is for all.
+const MOST_GRASPS: usize = 3;
+
+/// What the robot shall do.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Index of the chosen grasp in [`Transferred::grasps`].
+    pub grasp: usize,
+    /// How it was turned.
+    pub turn: Turn,
+    /// The key poses.
+    pub key_poses: Vec<KeyPose>,
+    /// The program through them.
+    pub program: Program,
+    /// Its cost, for comparison alone.
+    pub cost: f64,
+}
+
+pub(super) fn plan(
+    mut commands: Commands,
+    mut bench: NonSendMut<Bench>,
+    runs: Query<(Entity, &Assignment, &Transferred), Without<Failed>>,
+) {
+    for (run, assignment, transferred) in &runs {
+        let planned = bench.step(Step::Plan, |plugins| planned(plugins, assignment, transferred));
+        leave(&mut commands, run, planned);
+    }
+}
+
+/// The cheapest turn of the first grasp that has any way.
+fn planned(
+    plugins: &mut Plugins,
+    assignment: &Assignment,
+    transferred: &Transferred,
+) -> Result<Planned, String> {
+    let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
+    let obstacles = assignment.scene.obstacles();
+    let turns = turns(assignment.skill.stages[0].turn_about_closing_deg);
+    let mut nearest: Option<(usize, String)> = None;
+    let grasps = &transferred.grasps[..transferred.grasps.len().min(MOST_GRASPS)];
+    for (index, grasp) in grasps.iter().enumerate() {
+        let mut best: Option<Planned> = None;
+        for turn in &turns {
+            let key_poses = key_poses(assignment, transferred, grasp, turn);
+            let task = MotionTask { start: &start, key_poses: &key_poses, obstacles: &obstacles };
+            let outcome = plugins
+                .motion
+                .plan(&assignment.robot, plugins.kinematics.as_ref(), &task)
+                .map_err(|e| e.to_string())?;
+            match outcome {
+                MotionOutcome::Planned { program, cost } => {
+                    if best.as_ref().is_none_or(|best| cost < best.cost) {
+                        best =
+                            Some(Planned { grasp: index, turn: *turn, key_poses, program, cost });
+                    }
+                }
+                MotionOutcome::Infeasible { stage, reason } => {
+                    let reached = key_poses.iter().position(|k| k.stage == stage).unwrap_or(0);
+                    if nearest.as_ref().is_none_or(|(furthest, _)| reached > *furthest) {
+                        nearest = Some((reached, format!("{stage}: {reason}")));
+                    }
+                }
+            }
+        }
+        if let Some(best) = best {
+            return Ok(best);
+        }
+    }
+    let tried = grasps.len() * turns.len();
+    let nearest = nearest.map_or_else(String::new, |(_, reason)| reason);
+    Err(format!("none of {tried} ways to grasp can be carried out; the nearest fails at {nearest}"))
+}
+
+/// The skill's key poses for one grasp.
+fn key_poses(
+    assignment: &Assignment,
+    transferred: &Transferred,
+    grasp: &Grasp,
+    turn: &Turn,
+) -> Vec<KeyPose> {
+    let demonstration = &assignment.skill.demonstration;
+    let taken = &assignment.skill.stages[0].gripper_pose;
+    let pose = |relative_to: &RelativeTo, shown: &Pose| match relative_to {
+        // Beside the object: where the demonstrated hand was, seen from its grasp.
+        RelativeTo::Object => grasp.tool * taken.inverse() * shown,
+        RelativeTo::Frame(name) => {
+            let relation = relation(&demonstration.frames[name], shown, &transferred.demonstrated);
+            carried(&assignment.frames[name], &relation, &grasp.held)
+        }
+    };
+    let stages = assignment.skill.stages.iter();
+    stages
+        .map(|stage| KeyPose {
+            stage: stage.name.clone(),
+            pose: pose(&stage.relative_to, &stage.gripper_pose) * turn.pose(),
+            approach_m: stage.approach_m,
+            opening_m: stage.opening_m,
+            gripper: stage.gripper,
+            retreat_m: stage.retreat_m,
+            lift_m: stage.lift_m,
+        })
+        .collect()
+}

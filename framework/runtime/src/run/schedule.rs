@@ -1,0 +1,88 @@
+//! The ECS world and schedule of a run.
+
+use super::assignment::Assignment;
+use super::bench::{Bench, Hooks};
+use super::judge::Judged;
+use super::outcome::Outcome;
+use super::record::Recorded;
+use super::step::{Failed, Step};
+use super::{act, encode, judge, observe, perceive, plan, record, transfer};
+use crate::plugins::Plugins;
+use bevy_ecs::prelude::*;
+use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
+
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct RunSkill;
+
+/// A run that is over.
+pub struct Finished {
+    /// What is told of it.
+    pub outcome: Outcome,
+    /// The plugins, for another run of the same cell.
+    pub plugins: Plugins,
+    /// The run's entity with all that its steps left; see [`Finished::left`].
+    world: World,
+    run: Entity,
+}
+
+impl Finished {
+    /// What a step left, e.g. [`super::Planned`] for a picture of the plan.
+    pub fn left<C: Component>(&self) -> Option<&C> {
+        self.world.get::<C>(self.run)
+    }
+}
+
+/// Carries out one run. Whatever goes wrong in it is told in the outcome.
+pub fn run(assignment: Assignment, plugins: Plugins, hooks: Hooks) -> Finished {
+    let mut world = World::new();
+    world.insert_non_send(Bench::new(plugins, hooks));
+    let run = world.spawn(assignment).id();
+    schedule().run(&mut world);
+    let bench: Bench = world.remove_non_send().expect("the bench was put there above");
+    let outcome = Outcome::new(
+        world.get::<Assignment>(run).expect("no step takes the assignment away"),
+        &bench,
+        world.get::<Judged>(run).map(|judged| &judged.0),
+        world.get::<Failed>(run),
+        world.get::<Recorded>(run),
+    );
+    Finished { outcome, plugins: bench.plugins, world, run }
+}
+
+/// The steps, one after another on one thread.
+pub(super) fn schedule() -> Schedule {
+    let mut schedule = Schedule::new(RunSkill);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.configure_sets(
+        (
+            Step::Observe,
+            Step::Perceive,
+            Step::Encode,
+            Step::Transfer,
+            Step::Plan,
+            Step::Act,
+            Step::Judge,
+            Step::Record,
+        )
+            .chain(),
+    );
+    schedule.add_systems((
+        observe::observe.in_set(Step::Observe),
+        perceive::perceive.in_set(Step::Perceive),
+        encode::encode.in_set(Step::Encode),
+        transfer::transfer.in_set(Step::Transfer),
+        plan::plan.in_set(Step::Plan),
+        act::act.in_set(Step::Act),
+        judge::judge.in_set(Step::Judge),
+        record::record.in_set(Step::Record),
+    ));
+    schedule
+}
+
+/// Leaves on a run what a step found, or why it could not.
+pub(super) fn leave<C: Component>(commands: &mut Commands, run: Entity, found: Result<C, Failed>) {
+    match found {
+        Ok(component) => commands.entity(run).insert(component),
+        Err(failed) => commands.entity(run).insert(failed),
+    };
+}

@@ -1,0 +1,77 @@
+//! Equivalent grasps: the same surface between the same pads, the hand coming from
+//! elsewhere.
+
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use seeone_core::Pose;
+
+/// Between two tried turns, degrees.
+const STEP_DEG: u32 = 15;
+
+/// A way to turn the tool that leaves the grasp what it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// Turn about the closing axis (tool y), degrees.
+    pub about_closing_deg: f64,
+    /// Whether the fingers change places: half a turn about the approach axis (tool z).
+    pub flipped: bool,
+}
+
+impl Turn {
+    /// The turned tool frame in the tool frame.
+    pub fn pose(&self) -> Pose {
+        let about_closing = UnitQuaternion::from_axis_angle(
+            &Vector3::y_axis(),
+            self.about_closing_deg.to_radians(),
+        );
+        let flip = if self.flipped { std::f64::consts::PI } else { 0.0 };
+        let about_approach = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), flip);
+        Pose::from_parts(Translation3::identity(), about_closing * about_approach)
+    }
+}
+
+/// The turns within `most_deg` either way, in steps of 15 degrees, the smallest first; a
+/// parallel gripper is symmetric, so each also with the fingers exchanged.
+pub fn turns(most_deg: f64) -> Vec<Turn> {
+    let steps = (most_deg.clamp(0.0, 180.0) / f64::from(STEP_DEG)).floor() as u32;
+    let angles = (0..=steps).flat_map(|step| {
+        let angle = f64::from(step * STEP_DEG);
+        // Half a turn is the same either way.
+        let back = (step > 0 && step * STEP_DEG < 180).then_some(-angle);
+        [Some(angle), back].into_iter().flatten()
+    });
+    angles
+        .flat_map(|about_closing_deg| {
+            [false, true].map(|flipped| Turn { about_closing_deg, flipped })
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn begins_with_the_demonstrated_grasp_and_goes_outward() {
+        let turns = turns(90.0);
+        assert_eq!(turns.len(), 26);
+        assert_eq!(turns[0], Turn::default());
+        assert_eq!(turns[0].pose(), Pose::identity());
+        assert!(
+            turns
+                .windows(2)
+                .all(|pair| { pair[0].about_closing_deg.abs() <= pair[1].about_closing_deg.abs() })
+        );
+        assert_eq!(super::turns(0.0).len(), 2);
+        assert_eq!(super::turns(14.9).len(), 2);
+        assert_eq!(super::turns(180.0).len(), 48);
+    }
+
+    #[test]
+    fn keeps_the_line_along_which_the_fingers_close() {
+        for turn in turns(180.0) {
+            let closing = turn.pose() * Vector3::y();
+            let sign = if turn.flipped { -1.0 } else { 1.0 };
+            assert!((closing - Vector3::y() * sign).norm() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! The files that come with the project are sound.
+
+use nalgebra::{Point3, Vector3};
+use seeone_runtime::{KnownMethods, RobotFile, Scene, check};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+#[test]
+fn every_skill_scene_and_robot_passes_the_check() {
+    let mut checked = 0;
+    for folder in ["skills", "scenes", "robots"] {
+        for entry in fs::read_dir(repository().join(folder)).expect("the folder is there") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "toml") {
+                assert_eq!(check(&path, &KnownMethods::new()), [], "{}", path.display());
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked >= 2, "{checked} files");
+}
+
+#[test]
+fn the_camera_sees_the_drop_zone_in_the_middle_of_its_image() {
+    let scene =
+        Scene::read(&repository().join("scenes/head.toml"), &KnownMethods::new()).expect("a scene");
+    let centre = Point3::new(scene.drop.centre.x, scene.drop.centre.y, 0.03);
+    let seen = scene.camera.inverse_transform_point(&centre);
+    let (u, v, depth) = scene.intrinsics.project(&seen).expect("in front");
+    assert!((u - 319.5).abs() < 1.0 && (v - 239.5).abs() < 1.0, "{u} {v}");
+    assert!((depth - 0.75).abs() < 0.01, "{depth}");
+    let down = scene.camera * Vector3::y();
+    assert!(down.z < 0.0, "the image is upright");
+}
+
+#[test]
+fn the_robot_waits_above_the_mat_with_its_hand_down() {
+    let path = repository().join("robots/ur5-ag95-sim.toml");
+    let robot = RobotFile::read(&path, &KnownMethods::new()).expect("a robot file");
+    let model = robot.model().expect("a robot");
+    let tool = model.tool_pose(model.home());
+    assert!(tool.translation.z > 0.25, "{}", tool.translation);
+    assert!((tool.rotation * Vector3::z() + Vector3::z()).norm() < 1e-3);
+}

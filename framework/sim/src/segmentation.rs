@@ -1,0 +1,106 @@
+//! Which pixels of a depth image show the object on the mat.
+
+use nalgebra::Point3;
+use seeone_core::{Cloud, DepthImage, Pose};
+
+/// Where an object may lie or fall: a box over the table, in `world`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DropZone {
+    /// Middle of the zone in the table's plane, metres.
+    pub centre_m: [f64; 2],
+    /// Half of its edges along x and y, metres.
+    pub half_extents_m: [f64; 2],
+    /// Where the mat's top is, metres.
+    pub floor_m: f64,
+    /// Its height over the mat, metres.
+    pub height_m: f64,
+}
+
+/// What lies lower is taken for the mat, metres: twice the sensor's error.
+const MAT_M: f64 = 0.004;
+/// A patch smaller than this share of the largest one is taken for noise.
+const SMALLEST_SHARE: f64 = 0.2;
+/// Neighbouring pixels whose depths differ by less belong to one patch, metres.
+const SAME_PATCH_M: f64 = 0.03;
+
+impl DropZone {
+    /// A zone of 0.5 m x 0.5 m x 0.4 m about `centre_m`.
+    pub fn around(centre_m: [f64; 2]) -> Self {
+        Self { centre_m, half_extents_m: [0.25; 2], floor_m: 0.0, height_m: 0.4 }
+    }
+
+    fn holds(&self, p: &Point3<f64>) -> bool {
+        (p.x - self.centre_m[0]).abs() < self.half_extents_m[0]
+            && (p.y - self.centre_m[1]).abs() < self.half_extents_m[1]
+            && (MAT_M..self.height_m).contains(&(p.z - self.floor_m))
+    }
+
+    /// Pixels of `image` that show something in the zone above the mat, each with its point
+    /// in `world`. `camera` is the camera's pose in `world`.
+    ///
+    /// The mat's own noise stands out above the threshold here and there, in small islands;
+    /// only connected patches of a fair size are kept.
+    pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
+        let width = image.intrinsics.width;
+        let mut inside: Vec<Option<Point3<f64>>> = image
+            .depth_m
+            .iter()
+            .enumerate()
+            .map(|(i, z)| {
+                let z = f64::from(*z);
+                let usable = z.is_finite() && z > 0.0;
+                let point =
+                    usable.then(|| camera * image.intrinsics.deproject(i % width, i / width, z))?;
+                self.holds(&point).then_some(point)
+            })
+            .collect();
+        let patches = patches(&inside, image);
+        let largest = patches.iter().map(Vec::len).max().unwrap_or(0);
+        let mut kept: Vec<usize> = patches
+            .into_iter()
+            .filter(|p| p.len() as f64 >= SMALLEST_SHARE * largest as f64)
+            .flatten()
+            .collect();
+        kept.sort_unstable();
+        kept.into_iter().filter_map(|i| Some((i, inside[i].take()?))).collect()
+    }
+
+    /// The segmented points alone.
+    pub fn cloud(&self, image: &DepthImage, camera: &Pose) -> Cloud {
+        let points = self.segment(image, camera).into_iter().map(|(_, p)| p).collect();
+        Cloud::new(points).unwrap_or_default()
+    }
+}
+
+/// Connected patches (eight neighbours, and one missing pixel may be stepped over) of the
+/// pixels that are inside.
+fn patches(inside: &[Option<Point3<f64>>], image: &DepthImage) -> Vec<Vec<usize>> {
+    const STEP: isize = 2;
+    let (width, height) = (image.intrinsics.width as isize, image.intrinsics.height as isize);
+    let mut seen: Vec<bool> = inside.iter().map(Option::is_none).collect();
+    let mut all = Vec::new();
+    for start in 0..inside.len() {
+        if seen[start] {
+            continue;
+        }
+        seen[start] = true;
+        let mut patch = vec![start];
+        let mut next = 0;
+        while let Some(&pixel) = patch.get(next) {
+            next += 1;
+            let (column, row) = (pixel as isize % width, pixel as isize / width);
+            for r in (row - STEP).max(0)..=(row + STEP).min(height - 1) {
+                for c in (column - STEP).max(0)..=(column + STEP).min(width - 1) {
+                    let other = (r * width + c) as usize;
+                    let gap = (image.depth_m[other] - image.depth_m[pixel]).abs();
+                    if !seen[other] && f64::from(gap) < SAME_PATCH_M {
+                        seen[other] = true;
+                        patch.push(other);
+                    }
+                }
+            }
+        }
+        all.push(patch);
+    }
+    all
+}

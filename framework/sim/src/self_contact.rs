@@ -1,0 +1,197 @@
+//! Contact of a shell with itself: vertices against triangles.
+//!
+//! Pairs are found once a frame, with a margin for how far they can move until the next;
+//! each pair remembers on which side of the triangle its vertex is, so that a vertex
+//! pushed through in one substep is brought back in the next.
+
+mod grid;
+
+use crate::shell::Shell;
+use grid::Grid;
+use nalgebra::{Point3, Vector3};
+use seeone_core::TriangleMesh;
+
+/// Smallest distance kept between two layers, metres: two half thicknesses of 1.5 mm.
+const SEPARATION_M: f64 = 3.0e-3;
+/// Largest push in one substep, as a share of the separation: a faster one pops.
+const PUSH_SHARE: f64 = 0.1;
+/// Pairs are found within the separation, this slack and the frame's motion...
+const SLACK_M: f64 = 1.0e-3;
+/// ...but never beyond this distance, metres.
+const REACH_LIMIT_M: f64 = 0.02;
+/// What is this near at rest, or this little outside in barycentric coordinates, is no
+/// pair: a seam would push itself open.
+const REST_CLEARANCE_M: f64 = 2.0 * SEPARATION_M;
+const REST_OVERLAP: f64 = 0.3;
+/// How far outside a triangle, in barycentric coordinates, a vertex is still above it.
+const OVERLAP: f64 = 0.02;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair {
+    triangle: u32,
+    vertex: u32,
+    /// +1 on the side that the normal points to, -1 on the other.
+    side: f64,
+}
+
+/// The self-contact of one shell.
+#[derive(Clone, Debug)]
+pub struct SelfContact {
+    triangles: Vec<[u32; 3]>,
+    /// For each triangle, ascending, the vertices that never collide with it.
+    exempt: Vec<Vec<u32>>,
+    grid: Grid,
+    /// Ascending by triangle, then vertex.
+    pairs: Vec<Pair>,
+    fresh: Vec<Pair>,
+}
+
+/// Where a vertex is above a triangle.
+struct Above {
+    weights: [f64; 3],
+    normal: Vector3<f64>,
+    height: f64,
+}
+
+impl Above {
+    /// Whether the foot is inside the triangle, or outside by no more than `overlap`.
+    fn is_over(&self, overlap: f64) -> bool {
+        self.weights.iter().all(|w| *w >= -overlap)
+    }
+}
+
+impl SelfContact {
+    /// Contact among the triangles of the rest shape `mesh`.
+    pub fn new(mesh: &TriangleMesh) -> Self {
+        let mut grid = Grid::default();
+        grid.fill(mesh.vertices(), REACH_LIMIT_M);
+        let exempt = |index: usize| {
+            let corners = mesh.corners(index);
+            let mut near = mesh.triangles()[index].to_vec();
+            grid.for_each_around(&corners, REACH_LIMIT_M, |vertex| {
+                let at_rest = above(&mesh.vertices()[vertex as usize], &corners);
+                if at_rest
+                    .is_none_or(|a| a.is_over(REST_OVERLAP) && a.height.abs() < REST_CLEARANCE_M)
+                {
+                    near.push(vertex);
+                }
+            });
+            near.sort_unstable();
+            near
+        };
+        Self {
+            triangles: mesh.triangles().to_vec(),
+            exempt: (0..mesh.triangles().len()).map(exempt).collect(),
+            grid,
+            pairs: Vec::new(),
+            fresh: Vec::new(),
+        }
+    }
+
+    /// Finds the pairs that may touch within the next `frame_s` seconds.
+    pub fn find(&mut self, shell: &Shell, frame_s: f64) {
+        let mean = shell.velocity.iter().sum::<Vector3<f64>>() / shell.velocity.len() as f64;
+        let fastest = shell.velocity.iter().map(|v| (v - mean).norm()).fold(0.0, f64::max);
+        let reach = (SEPARATION_M + SLACK_M + 2.0 * fastest * frame_s).min(REACH_LIMIT_M);
+        self.grid.fill(&shell.position, REACH_LIMIT_M);
+        self.fresh.clear();
+        let Self { triangles, exempt, grid, pairs, fresh } = self;
+        for (t, triangle) in triangles.iter().enumerate() {
+            let corners = triangle.map(|v| shell.position[v as usize]);
+            grid.for_each_around(&corners, reach, |vertex| {
+                if exempt[t].binary_search(&vertex).is_ok() {
+                    return;
+                }
+                let Some(above) = above(&shell.position[vertex as usize], &corners) else { return };
+                if above.height.abs() > reach {
+                    return;
+                }
+                let key = (t as u32, vertex);
+                let known = pairs.binary_search_by_key(&key, |p| (p.triangle, p.vertex));
+                let side = match known {
+                    // Beside the triangle a vertex may change sides: it goes round it.
+                    Ok(index) if above.is_over(OVERLAP) => pairs[index].side,
+                    _ => above.height.signum(),
+                };
+                fresh.push(Pair { triangle: t as u32, vertex, side });
+            });
+        }
+        fresh.sort_unstable_by_key(|p| (p.triangle, p.vertex));
+        std::mem::swap(pairs, fresh);
+    }
+
+    /// Pushes apart the pairs that are too close. The push conserves momentum.
+    pub fn solve(&self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
+        for pair in &self.pairs {
+            let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
+            let corners = ids.map(|v| position[v]);
+            let vertex = pair.vertex as usize;
+            let Some(above) = above(&position[vertex], &corners) else { continue };
+            let gap = above.height * pair.side;
+            if !above.is_over(OVERLAP) || !(-REACH_LIMIT_M..SEPARATION_M).contains(&gap) {
+                continue;
+            }
+            let inverse: f64 = inverse_mass[vertex]
+                + ids.iter().zip(above.weights).map(|(v, b)| inverse_mass[*v] * b * b).sum::<f64>();
+            if inverse <= 0.0 {
+                continue;
+            }
+            let push = (SEPARATION_M - gap).min(PUSH_SHARE * SEPARATION_M) * pair.side / inverse;
+            position[vertex] += above.normal * (push * inverse_mass[vertex]);
+            for (v, b) in ids.into_iter().zip(above.weights) {
+                position[v] -= above.normal * (push * inverse_mass[v] * b);
+            }
+        }
+    }
+}
+
+/// Barycentric weights of the foot of `p` on the plane of `corners`, the unit normal and
+/// the signed height; `None` for a triangle without area.
+#[inline]
+fn above(p: &Point3<f64>, corners: &[Point3<f64>; 3]) -> Option<Above> {
+    let [a, b, c] = corners;
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let normal = ab.cross(&ac);
+    let squared = normal.norm_squared();
+    if squared <= 0.0 {
+        return None;
+    }
+    let v = ap.cross(&ac).dot(&normal) / squared;
+    let w = ab.cross(&ap).dot(&normal) / squared;
+    let length = squared.sqrt();
+    Some(Above {
+        weights: [1.0 - v - w, v, w],
+        normal: normal / length,
+        height: ap.dot(&normal) / length,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_that_passed_through_is_brought_back_to_its_side() {
+        let mut points = vec![
+            Point3::new(0.0, 0.0, 0.0),
+            Point3::new(0.02, 0.0, 0.0),
+            Point3::new(0.0, 0.02, 0.0),
+            Point3::new(0.005, 0.005, -0.001),
+        ];
+        let contact = SelfContact {
+            triangles: vec![[0, 1, 2]],
+            exempt: Vec::new(),
+            grid: Grid::default(),
+            pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0 }],
+            fresh: Vec::new(),
+        };
+        for _ in 0..100 {
+            contact.solve(&mut points, &[1.0; 4]);
+        }
+        let corners = [points[0], points[1], points[2]];
+        let height = above(&points[3], &corners).expect("a triangle").height;
+        assert!((height - SEPARATION_M).abs() < 1e-6, "{height}");
+        let centre: Vector3<f64> = points.iter().map(|p| p.coords).sum();
+        assert!((centre - Vector3::new(0.025, 0.025, -0.001)).norm() < 1e-12);
+    }
+}

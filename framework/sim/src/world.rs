@@ -1,0 +1,127 @@
+//! One deformable object, its surroundings and a gripper, advanced frame by frame.
+
+mod fault;
+mod grip;
+mod placement;
+mod report;
+mod settings;
+mod settle;
+
+pub use fault::{PlacementFault, WorldFault};
+pub use settings::Settings;
+pub use settle::Settled;
+
+use crate::contact::pads::Pads;
+use crate::contact::{self, Sample};
+use crate::grasp::Grasp;
+use crate::hand::Fingers;
+use crate::object::Object;
+use crate::self_contact::SelfContact;
+use crate::shell::{Momentum, Shell};
+use crate::surroundings::{Head, Surroundings};
+use seeone_core::{Pose, TriangleMesh};
+
+/// Length of a frame, s.
+pub const FRAME_S: f64 = 1.0 / 60.0;
+
+/// A simulated world. Same start, same calls, same bytes.
+#[derive(Clone, Debug)]
+pub struct World {
+    shell: Shell,
+    rest: TriangleMesh,
+    thickness_m: f64,
+    surroundings: Surroundings,
+    settings: Settings,
+    self_contact: SelfContact,
+    pads: Pads,
+    fingers: Option<Fingers>,
+    grasp: Option<Grasp>,
+    frames: u64,
+    fault: Option<WorldFault>,
+}
+
+impl World {
+    /// A world with `object` at rest at `placed` (object frame -> world) and no hand.
+    pub fn new(
+        object: &Object,
+        placed: &Pose,
+        surroundings: Surroundings,
+        settings: Settings,
+    ) -> Self {
+        let mesh = object.mesh();
+        let samples = Sample::all(mesh.triangles(), mesh.vertices().len());
+        let used = object.regions().iter().map(|r| object.materials()[r.index()].thickness_m);
+        Self {
+            shell: Shell::new(object, placed),
+            rest: mesh.clone(),
+            thickness_m: used.fold(0.0, f64::max),
+            surroundings,
+            settings,
+            self_contact: SelfContact::new(mesh),
+            pads: Pads::new(samples),
+            fingers: None,
+            grasp: None,
+            frames: 0,
+            fault: None,
+        }
+    }
+
+    /// Advances by one frame of 1/60 s. After a fault it does nothing.
+    pub fn advance(&mut self) {
+        if self.fault.is_some() {
+            return;
+        }
+        let substeps = self.settings.substeps.max(1);
+        let h = FRAME_S / substeps as f64;
+        let last_whole = self.shell.position.clone();
+        let before = self.shell.momentum();
+        if self.settings.self_contact {
+            self.self_contact.find(&self.shell, FRAME_S);
+        }
+        if let Some(fingers) = &mut self.fingers {
+            fingers.begin_frame();
+            self.pads.begin_frame(&self.shell, fingers);
+        }
+        let mut given = Momentum::zero();
+        for substep in 1..=substeps {
+            self.substep(substep as f64 / substeps as f64, h, &mut given);
+        }
+        self.frames += 1;
+        if !self.shell.is_finite() {
+            self.fault = Some(WorldFault::Diverged { seconds: self.time() });
+            self.release();
+            self.shell.rest_at(&last_whole);
+            return;
+        }
+        self.tend_grip(&before, &given);
+    }
+
+    fn substep(&mut self, done: f64, h: f64, given: &mut Momentum) {
+        let Self { shell, settings, surroundings, fingers, grasp, .. } = self;
+        shell.predict(h, &settings.gravity, settings.velocity_damping);
+        if let Some(fingers) = fingers {
+            fingers.step(done, h);
+            if let Some(grasp) = grasp {
+                grasp.carry(shell, fingers, h);
+            }
+        }
+        shell.solve(h);
+        if settings.self_contact {
+            self.self_contact.solve(&mut shell.position, &shell.inverse_mass);
+        }
+        let frictions = &surroundings.frictions;
+        if let Some(fingers) = fingers {
+            self.pads.solve(shell, fingers, frictions.pad, h);
+        }
+        if let Some(head) = &surroundings.head {
+            contact::with_ellipsoid(shell, &Head::shape(), &head.pose, frictions.head, h, given);
+        }
+        if surroundings.table {
+            contact::with_table(shell, frictions.table, h, given);
+        }
+        if let (Some(fingers), Some(grasp)) = (fingers, grasp) {
+            grasp.draw(shell, &fingers.now, h);
+        }
+        shell.finish(h);
+    }
+}

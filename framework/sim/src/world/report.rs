@@ -1,0 +1,97 @@
+//! What can be asked of a world.
+
+use super::{FRAME_S, World, WorldFault};
+use crate::hand::Hand;
+use crate::surroundings::{Head, Surroundings};
+use nalgebra::{Point3, Vector3};
+use seeone_core::TriangleMesh;
+
+impl World {
+    /// Positions of the object's vertices in world, metres.
+    pub fn vertices(&self) -> &[Point3<f64>] {
+        &self.shell.position
+    }
+
+    /// Velocities of the object's vertices in world, m/s.
+    pub fn velocities(&self) -> &[Vector3<f64>] {
+        &self.shell.velocity
+    }
+
+    /// The object as it is now, in world.
+    pub fn mesh(&self) -> TriangleMesh {
+        self.rest
+            .with_vertices(self.shell.position.clone())
+            .expect("as many vertices as at rest, all finite: a frame that is not is undone")
+    }
+
+    /// The hand, if there is one.
+    pub fn hand(&self) -> Option<&Hand> {
+        self.fingers.as_ref().map(|f| &f.now)
+    }
+
+    /// The rigid surroundings.
+    pub fn surroundings(&self) -> &Surroundings {
+        &self.surroundings
+    }
+
+    /// Seconds since the start.
+    pub fn time(&self) -> f64 {
+        self.frames as f64 * FRAME_S
+    }
+
+    /// Why it stopped, if it did.
+    pub fn fault(&self) -> Option<WorldFault> {
+        self.fault
+    }
+
+    /// Mass-weighted root mean square speed, m/s.
+    pub fn rms_speed(&self) -> f64 {
+        self.shell.rms_speed()
+    }
+
+    /// The same with rigid motion taken out, m/s.
+    pub fn deformation_rms_speed(&self) -> f64 {
+        self.shell.deformation_rms_speed()
+    }
+
+    /// Kinetic energy, J.
+    pub fn kinetic_energy(&self) -> f64 {
+        self.shell.kinetic_energy()
+    }
+
+    /// Elastic energy, J.
+    pub fn elastic_energy(&self) -> f64 {
+        self.shell.elastic_energy()
+    }
+
+    /// Centre of mass in world, metres.
+    pub fn centre_of_mass(&self) -> Point3<f64> {
+        self.shell.centre_of_mass()
+    }
+
+    /// Mass of the object, kg.
+    pub fn mass(&self) -> f64 {
+        self.shell.total_mass()
+    }
+
+    /// Mean and largest absolute strain of the edges.
+    pub fn strain(&self) -> (f64, f64) {
+        self.shell.strain()
+    }
+
+    /// Root mean square distance from the nearest rigid copy of the rest shape, metres.
+    pub fn shape_residual(&self) -> f64 {
+        self.shell.shape_residual()
+    }
+
+    /// Smallest distance of the object's surface from the head, metres, negative inside;
+    /// `None` without a head.
+    pub fn min_signed_distance_to_head(&self) -> Option<f64> {
+        let head = self.surroundings.head?;
+        let shape = Head::shape();
+        let distance =
+            |p: Point3<f64>| shape.signed_distance(&head.pose.inverse_transform_point(&p)).0;
+        let samples = self.pads.samples().iter();
+        Some(samples.map(|s| distance(s.at(&self.shell.position))).fold(f64::INFINITY, f64::min))
+    }
+}

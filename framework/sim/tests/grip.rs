@@ -1,0 +1,90 @@
+//! Gripping, carrying, letting go: by friction and never by glue.
+
+mod common;
+
+use common::{a_cap, advance, worn};
+use nalgebra::{Point3, Translation3, Vector3};
+use seeone_core::Pose;
+use seeone_core::pose::rotation_from_approach;
+use seeone_sim::{Hand, Region, Settings, Surroundings, World};
+
+/// A floating cap with the gripper about the tip of its visor, pads open.
+fn at_the_visor() -> World {
+    let settings = Settings { gravity: Vector3::zeros(), ..Settings::default() };
+    let cap = a_cap();
+    let placed = Pose::translation(0.0, 0.0, 0.5);
+    let mut world = World::new(&cap, &placed, Surroundings::default(), settings);
+    let visor: Vec<Point3<f64>> =
+        cap.vertices_of(Region::Brim).iter().map(|v| world.vertices()[*v]).collect();
+    let tip = visor.iter().copied().fold(visor[0], |a, p| if p.y > a.y { p } else { a });
+    let inside = |p: &&Point3<f64>| p.x.abs() < 0.01 && (0.015..0.04).contains(&(tip.y - p.y));
+    let inner = visor.iter().find(inside).expect("a visor is deeper than 40 mm");
+    let approach = (inner - tip).normalize();
+    let pose = Pose::from_parts(
+        Translation3::from((tip + approach * 0.008).coords),
+        rotation_from_approach(&approach, &Vector3::z()),
+    );
+    world.move_hand(&Hand { pose, opening_m: 0.03 });
+    world
+}
+
+/// Closes with `force_n`, turns gravity on and lifts by 0.3 m in 1.2 s; gives back the
+/// world and how far the centre of mass rose one second later.
+fn lift(force_n: f64) -> (World, f64) {
+    let mut world = at_the_visor();
+    world.close(force_n);
+    advance(&mut world, 0.5);
+    assert!(world.hand_state().closed);
+    let start = world.centre_of_mass();
+    let hand = *world.hand().expect("a hand");
+    world.set_gravity(Vector3::z() * -9.81);
+    for frame in 1..=72 {
+        let share = f64::from(frame) / 72.0;
+        let height = 0.3 * share * share * (3.0 - 2.0 * share);
+        world.move_hand(&Hand { pose: Translation3::new(0.0, 0.0, height) * hand.pose, ..hand });
+        world.advance();
+    }
+    advance(&mut world, 1.0);
+    let rise = world.centre_of_mass().z - start.z;
+    (world, rise)
+}
+
+#[test]
+fn a_firm_grip_carries_the_cap_and_opening_drops_it() {
+    let (mut world, rise) = lift(20.0);
+    assert!((rise - 0.3).abs() < 0.02, "rose by {rise} m");
+    let state = world.hand_state();
+    assert!(state.held_points >= 4 && state.slip_m < 0.002 && state.normal_force_n == 20.0);
+    assert!(world.rms_speed() < 0.05, "{}", world.rms_speed());
+    let held = world.centre_of_mass().z;
+    world.open(0.06);
+    assert_eq!(world.hand_state().held_points, 0);
+    advance(&mut world, 1.0);
+    assert!(held - world.centre_of_mass().z > 1.0, "stuck to an open gripper");
+}
+
+#[test]
+fn a_grip_far_too_weak_drops_the_cap() {
+    let (world, rise) = lift(0.5);
+    assert_eq!(world.hand_state().held_points, 0);
+    assert!(rise < -1.0, "rose by {rise} m");
+}
+
+#[test]
+fn closing_on_nothing_holds_nothing() {
+    let mut world = worn();
+    world.move_hand(&Hand { pose: Pose::translation(0.5, 0.0, 0.5), opening_m: 0.02 });
+    world.close(20.0);
+    advance(&mut world, 0.5);
+    assert!(world.hand_state().closed);
+    assert_eq!(world.hand_state().held_points, 0);
+}
+
+#[test]
+fn fingers_move_at_their_speed() {
+    let mut world = worn();
+    world.move_hand(&Hand { pose: Pose::translation(0.5, 0.0, 0.5), opening_m: 0.08 });
+    world.close(20.0);
+    advance(&mut world, 0.5);
+    assert!((world.hand_state().opening_m - 0.03).abs() < 1e-9, "two fingers at 0.05 m/s each");
+}

@@ -1,0 +1,75 @@
+//! The branches on which the arm can reach a pose.
+
+use seeone_core::Pose;
+use seeone_core::random::{generator, uniform};
+use seeone_core::robot::RobotModel;
+use seeone_plugin::{IkQuery, IkStatus, Kinematics, PluginError};
+use std::f64::consts::TAU;
+
+/// Postures nearer than this are one branch, radians.
+const SAME_RAD: f64 = 0.1;
+/// Questions asked for each branch wanted.
+const QUESTIONS: usize = 4;
+
+/// Up to `count` postures that bring the tool to `target`, the nearest to `near` first,
+/// or why there is none. The kinematics is asked from `near` and then from seeded
+/// postures all over the joints' range.
+///
+/// # Errors
+/// [`PluginError`] of the kinematics.
+pub(crate) fn candidates(
+    robot: &RobotModel,
+    kinematics: &dyn Kinematics,
+    target: &Pose,
+    near: &[f64],
+    count: usize,
+) -> Result<Result<Vec<Vec<f64>>, String>, PluginError> {
+    let first = kinematics.solve(robot, &IkQuery { target, near, continuous: false })?;
+    if first.status != IkStatus::Solved {
+        return Ok(Err(first.reason.unwrap_or_else(|| "no posture reaches it".into())));
+    }
+    let mut found = vec![first.joints];
+    let mut rng = generator(0, "branches");
+    for _ in 0..QUESTIONS * count {
+        if found.len() >= count {
+            break;
+        }
+        let near_by: Vec<f64> =
+            robot.joints().iter().map(|j| uniform(&mut rng, j.lower(), j.upper())).collect();
+        let query = IkQuery { target, near: &near_by, continuous: false };
+        let outcome = kinematics.solve(robot, &query)?;
+        let joints = turned_towards(robot, &outcome.joints, near);
+        let known = found.iter().any(|q| furthest(q, &joints) < SAME_RAD);
+        if outcome.status == IkStatus::Solved && !known {
+            found.push(joints);
+        }
+    }
+    found.sort_by(|a, b| cost(robot, a, near).total_cmp(&cost(robot, b, near)));
+    Ok(Ok(found))
+}
+
+/// Joint travel from `near` and closeness to limits; smaller is better.
+pub(crate) fn cost(robot: &RobotModel, q: &[f64], near: &[f64]) -> f64 {
+    q.iter().zip(near).map(|(a, b)| (a - b).abs()).sum::<f64>() + limit_cost(robot, q)
+}
+
+/// One for each joint at its limit, falling to zero half a radian away from it.
+pub(crate) fn limit_cost(robot: &RobotModel, q: &[f64]) -> f64 {
+    let margins = robot.joints().iter().zip(q).map(|(j, q)| (q - j.lower()).min(j.upper() - q));
+    margins.map(|margin| (1.0 - 2.0 * margin).max(0.0)).sum()
+}
+
+/// `q` with every joint at the allowed whole turn nearest to `near`.
+fn turned_towards(robot: &RobotModel, q: &[f64], near: &[f64]) -> Vec<f64> {
+    let joints = robot.joints().iter().zip(q.iter().zip(near));
+    joints
+        .map(|(joint, (q, near))| {
+            let turned = q + TAU * ((near - q) / TAU).round();
+            if joint.allows(turned) { turned } else { *q }
+        })
+        .collect()
+}
+
+fn furthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,117 @@
+//! Free-space moves between two postures.
+
+use crate::MotionConfig;
+use crate::checker::{Checker, Contact, Rules};
+use crate::rrt::{Search, distance};
+use rand::RngExt;
+use seeone_core::random::Generator;
+use seeone_core::robot::RobotModel;
+
+/// How far beyond its two ends a planned transit may move a joint, radians.
+const DETOUR_RAD: f64 = 1.6;
+
+/// How to move from one posture to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Straight in joint space or not at all.
+    Straight,
+    /// Straight where that is free, otherwise planned.
+    Planned,
+}
+
+/// A free path of straight lines in joint space from `start` to `goal`, or why there is
+/// none. What hangs in the hand stays as far from obstacles as the two ends allow.
+pub(crate) fn transit(
+    robot: &RobotModel,
+    config: &MotionConfig,
+    checker: &Checker,
+    holding: bool,
+    style: Style,
+    (start, goal): (&[f64], &[f64]),
+    rng: &mut Generator,
+) -> Result<Vec<Vec<f64>>, String> {
+    let ends = || checker.held_clearance(start).min(checker.held_clearance(goal));
+    // The margin is for rounding: the ends themselves must pass.
+    let held_radius_m = holding.then(|| config.held_radius_m.min(ends() - 1e-6));
+    let rules = Rules { fingers_may_touch: false, held_radius_m };
+    let blocked = |a: &[f64], b: &[f64]| first_contact(config, checker, &rules, a, b);
+    for (end, name) in [(start, "start"), (goal, "end")] {
+        if let Some(contact) = checker.contact(end, &rules) {
+            return Err(format!("at the transit's {name} {contact}"));
+        }
+    }
+    let Some(contact) = blocked(start, goal) else {
+        return Ok(vec![start.to_vec(), goal.to_vec()]);
+    };
+    if style == Style::Straight {
+        return Err(format!("the straight joint move is blocked: {contact}"));
+    }
+    let joints = robot.joints().iter().zip(start.iter().zip(goal));
+    let bounds: Vec<(f64, f64)> = joints
+        .map(|(joint, (a, b))| {
+            let (low, high) = (a.min(*b) - DETOUR_RAD, a.max(*b) + DETOUR_RAD);
+            (low.max(joint.lower()), high.min(joint.upper()))
+        })
+        .collect();
+    let free = |a: &[f64], b: &[f64]| blocked(a, b).is_none();
+    let search = Search { bounds: &bounds, free: &free, extensions: config.extensions };
+    match search.connect(start, goal, rng) {
+        Some(path) => Ok(shortened(path, config.shortcuts, &free, rng)),
+        None => Err(format!(
+            "no free path after {} extensions; the straight one is blocked: {contact}",
+            config.extensions
+        )),
+    }
+}
+
+/// The first contact on the straight line from `a` to `b`, `a` itself left out.
+fn first_contact(
+    config: &MotionConfig,
+    checker: &Checker,
+    rules: &Rules,
+    a: &[f64],
+    b: &[f64],
+) -> Option<Contact> {
+    let furthest = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let steps = (furthest / config.joint_step_rad).ceil().max(1.0) as usize;
+    (1..=steps).find_map(|k| {
+        let share = k as f64 / steps as f64;
+        let q: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
+        checker.contact(&q, rules)
+    })
+}
+
+/// The path with corners cut where the straight line is free.
+fn shortened(
+    mut path: Vec<Vec<f64>>,
+    attempts: usize,
+    free: &dyn Fn(&[f64], &[f64]) -> bool,
+    rng: &mut Generator,
+) -> Vec<Vec<f64>> {
+    for _ in 0..attempts {
+        if path.len() < 3 {
+            break;
+        }
+        let pieces = path.len() - 1;
+        let (mut i, mut j) = (rng.random_range(0..pieces), rng.random_range(0..pieces));
+        if i > j {
+            std::mem::swap(&mut i, &mut j);
+        }
+        let mut on = |piece: usize| {
+            let share = rng.random::<f64>();
+            let (a, b) = (&path[piece], &path[piece + 1]);
+            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>()
+        };
+        let (a, b) = (on(i), on(j));
+        if i == j {
+            continue;
+        }
+        let around: f64 = distance(&a, &path[i + 1])
+            + path[i + 1..=j].windows(2).map(|pair| distance(&pair[0], &pair[1])).sum::<f64>()
+            + distance(&path[j], &b);
+        if distance(&a, &b) < 0.99 * around && free(&a, &b) {
+            path.splice(i + 1..=j, [a, b]);
+        }
+    }
+    path
+}

@@ -1,0 +1,164 @@
+//! The straight lines and grips around key poses, on one branch of the arm.
+
+use crate::MotionConfig;
+use crate::candidates::limit_cost;
+use crate::checker::{Checker, Rules};
+use crate::hand::Hand;
+use crate::line::follow;
+use nalgebra::{Translation3, Vector3};
+use seeone_core::Pose;
+use seeone_core::robot::RobotModel;
+use seeone_plugin::motion::Obstacle;
+use seeone_plugin::{GripperCommand, KeyPose, Kinematics, PluginError};
+
+/// One line or grip of a walk.
+pub(crate) struct Leg<'a> {
+    pub(crate) stage: &'a str,
+    pub(crate) purpose: &'static str,
+    pub(crate) deed: Deed,
+}
+
+/// What a leg does.
+pub(crate) enum Deed {
+    /// Run through these closely spaced postures; slowly near the first, the last, or both.
+    Line { path: Vec<Vec<f64>>, slow_start: bool, slow_end: bool },
+    /// Move the fingers.
+    Grip(GripperCommand),
+}
+
+/// What a walk needs to know.
+pub(crate) struct Walker<'a> {
+    pub(crate) robot: &'a RobotModel,
+    pub(crate) kinematics: &'a dyn Kinematics,
+    pub(crate) config: &'a MotionConfig,
+    pub(crate) obstacles: &'a [Obstacle],
+    /// Key poses joined by straight lines, at least one.
+    pub(crate) keys: &'a [KeyPose],
+    /// The hand on the way to the first.
+    pub(crate) hand: Hand,
+}
+
+/// Why there is no walk, and at which stage.
+pub(crate) struct Fault {
+    pub(crate) stage: String,
+    pub(crate) reason: String,
+}
+
+/// A walk that can be done.
+pub(crate) struct Walk<'a> {
+    pub(crate) legs: Vec<Leg<'a>>,
+    pub(crate) entry: Vec<f64>,
+    pub(crate) exit: Vec<f64>,
+    pub(crate) limit_cost: f64,
+}
+
+impl<'a> Walker<'a> {
+    /// Whether nothing lies between two key poses, so that a straight line joins them.
+    pub(crate) fn joins(before: &KeyPose, after: &KeyPose) -> bool {
+        before.lift_m == 0.0 && before.retreat_m == 0.0 && after.approach_m == 0.0
+    }
+
+    /// Whether the arm may stand at `q` at a key pose.
+    pub(crate) fn stands(&self, q: &[f64]) -> Result<(), String> {
+        let rules = Rules { fingers_may_touch: true, held_radius_m: None };
+        match self.checker(&self.hand).contact(q, &rules) {
+            Some(contact) => Err(contact.to_string()),
+            None => Ok(()),
+        }
+    }
+
+    /// Walks all key poses with the arm at `first` at the first of them.
+    ///
+    /// # Errors
+    /// [`PluginError`] of the kinematics.
+    pub(crate) fn walk(&self, first: &[f64]) -> Result<Result<Walk<'a>, Fault>, PluginError> {
+        let mut walk =
+            Walk { legs: Vec::new(), entry: first.to_vec(), exit: first.to_vec(), limit_cost: 0.0 };
+        let mut hand = self.hand;
+        for (index, key) in self.keys.iter().enumerate() {
+            let fault = |what: &str, reason| Fault {
+                stage: key.stage.clone(),
+                reason: format!("{what}: {reason}"),
+            };
+            if index == 0 && key.approach_m > 0.0 {
+                let back = key.pose * Translation3::new(0.0, 0.0, -key.approach_m);
+                match self.line(first, &back, &hand)? {
+                    Ok(mut path) => {
+                        path.reverse();
+                        walk.entry.clone_from(&path[0]);
+                        walk.push(key, "approach", path, false, true);
+                    }
+                    Err(reason) => return Ok(Err(fault("approach", reason))),
+                }
+            } else if index > 0 {
+                match self.line(&walk.exit, &key.pose, &hand)? {
+                    Ok(path) => walk.push(key, "approach", path, false, true),
+                    Err(reason) => return Ok(Err(fault("approach", reason))),
+                }
+            }
+            walk.limit_cost += limit_cost(self.robot, &walk.exit);
+            if let Some(command) = key.gripper {
+                walk.legs.push(Leg {
+                    stage: &key.stage,
+                    purpose: "grip",
+                    deed: Deed::Grip(command),
+                });
+                hand = hand.after(key.gripper);
+            }
+            let up = Translation3::from(Vector3::z() * key.lift_m);
+            let back = Translation3::new(0.0, 0.0, -key.retreat_m);
+            let departures = [
+                ("lift", key.lift_m, up * key.pose),
+                ("retreat", key.retreat_m, up * key.pose * back),
+            ];
+            for (purpose, length, target) in departures {
+                if length == 0.0 {
+                    continue;
+                }
+                match self.line(&walk.exit, &target, &hand)? {
+                    Ok(path) => walk.push(key, purpose, path, true, false),
+                    Err(reason) => return Ok(Err(fault(purpose, reason))),
+                }
+            }
+        }
+        Ok(Ok(walk))
+    }
+
+    fn checker(&self, hand: &Hand) -> Checker<'a> {
+        Checker::new(self.robot, self.config, self.obstacles, hand)
+    }
+
+    /// A line that touches nothing but, with the fingers, near the key poses.
+    fn line(
+        &self,
+        start: &[f64],
+        target: &Pose,
+        hand: &Hand,
+    ) -> Result<Result<Vec<Vec<f64>>, String>, PluginError> {
+        let checker = self.checker(hand);
+        let fault = |q: &[f64]| {
+            let tool = self.robot.tool_pose(q).translation.vector;
+            let mut distances =
+                self.keys.iter().map(|key| (key.pose.translation.vector - tool).norm());
+            let near = distances.any(|distance| distance <= self.config.finger_zone_m + 1e-6);
+            let rules = Rules { fingers_may_touch: near, held_radius_m: None };
+            checker.contact(q, &rules).map(|contact| contact.to_string())
+        };
+        follow(self.robot, self.kinematics, start, target, self.config.line_step_m, &fault)
+    }
+}
+
+impl<'a> Walk<'a> {
+    fn push(
+        &mut self,
+        key: &'a KeyPose,
+        purpose: &'static str,
+        path: Vec<Vec<f64>>,
+        slow_start: bool,
+        slow_end: bool,
+    ) {
+        self.exit.clone_from(&path[path.len() - 1]);
+        let deed = Deed::Line { path, slow_start, slow_end };
+        self.legs.push(Leg { stage: &key.stage, purpose, deed });
+    }
+}

@@ -1,0 +1,220 @@
+//! From a cloud to canonical coordinates: coarse network, fit, refiner.
+
+use crate::alignment::{folded, robust};
+use crate::augment::take_shuffled;
+use crate::batch::Batch;
+use crate::dataset::FEWEST_POINTS;
+use crate::network::{FEATURES, Network, Sizes};
+use crate::readout::{Readout, read};
+use crate::units::{camera_frame, from_canonical, from_metres, moved, unfold};
+use nalgebra::{Point3, Vector3};
+use seeone_core::random::generator;
+use seeone_core::{Diagnostic, Similarity};
+use seeone_nn::sampling::Point;
+use seeone_nn::{Card, weights};
+use std::path::Path;
+
+/// Refiner passes; the last one is averaged with that of the mirrored cloud.
+const PASSES: usize = 3;
+/// Most points that are answered for.
+pub const MOST_POINTS: usize = 2048;
+/// File names of the two networks' weights.
+pub const COARSE_FILE: &str = "coarse.safetensors";
+/// See [`COARSE_FILE`].
+pub const REFINER_FILE: &str = "refiner.safetensors";
+
+/// What was perceived about some of the points given.
+#[derive(Clone, Debug)]
+pub struct Perceived {
+    /// Which points, by their place in what was given, each once and in rising order: all
+    /// of them, or [`MOST_POINTS`] drawn at random.
+    pub rows: Vec<usize>,
+    /// Their canonical coordinates in the unit cube.
+    pub nocs: Vec<Point3<f64>>,
+    /// Confidence of each coordinate in `[0, 1]`.
+    pub confidence: Vec<[f64; 3]>,
+    /// [`FEATURES`] numbers a point.
+    pub features: Vec<f32>,
+    /// `world` -> centred canonical coordinates (`nocs - 0.5`), by robust fit.
+    pub alignment: Similarity,
+}
+
+/// Why nothing was perceived.
+#[derive(Debug, thiserror::Error)]
+pub enum NstError {
+    /// Too few points to say anything.
+    #[error("{0} points are too few to perceive anything; {FEWEST_POINTS} are needed")]
+    TooFewPoints(usize),
+    /// A point, or the camera's position, is NaN or infinite.
+    #[error("the observation is not finite")]
+    NotFinite,
+    /// All points coincide, or the network's answers determine no pose.
+    #[error("the points determine no pose")]
+    NoPose,
+    /// A tensor operation failed.
+    #[error("network: {0}")]
+    Network(#[from] candle_core::Error),
+}
+
+/// The two trained networks.
+pub struct Nst {
+    coarse: Network,
+    refiner: Network,
+    card: Card,
+}
+
+impl Nst {
+    /// Loads the weights of `folder`, checked against its card.
+    ///
+    /// # Errors
+    /// A located diagnostic when a file is missing, damaged or another network's.
+    pub fn load(folder: &Path) -> Result<Self, Diagnostic> {
+        let card = Card::read(folder)?;
+        let network = |sizes, file| -> Result<Network, Diagnostic> {
+            let (entry, path) = card.entry(folder, file)?;
+            let network = Network::new(sizes, 0)
+                .map_err(|e| Diagnostic::new("N002", e.to_string()).in_file(&path))?;
+            weights::load(&path, network.parameters(), entry)?;
+            Ok(network)
+        };
+        let coarse = network(Sizes::COARSE, COARSE_FILE)?;
+        let refiner = network(Sizes::REFINER, REFINER_FILE)?;
+        Ok(Self { coarse, refiner, card })
+    }
+
+    /// What the weights are.
+    pub fn card(&self) -> &Card {
+        &self.card
+    }
+
+    /// Perceives a cloud in `world` (gravity along -z, metres) seen from `camera`.
+    ///
+    /// # Errors
+    /// [`NstError`].
+    pub fn perceive(
+        &self,
+        points: &[Point3<f64>],
+        camera: &Point3<f64>,
+    ) -> Result<Perceived, NstError> {
+        if !camera.coords.iter().all(|v| v.is_finite()) {
+            return Err(NstError::NotFinite);
+        }
+        let points = checked(points)?;
+        let start = coarse_pose(&self.coarse, &points, camera, 0)?.ok_or(NstError::NoPose)?;
+        self.refine(&points, &start)
+    }
+
+    /// Perceives a cloud whose pose is nearly known, such as that of an object held in the
+    /// gripper; `start` is `world` -> centred canonical coordinates, right within about 40
+    /// degrees. Gravity plays no part.
+    ///
+    /// # Errors
+    /// [`NstError`].
+    pub fn perceive_from(
+        &self,
+        points: &[Point3<f64>],
+        start: &Similarity,
+    ) -> Result<Perceived, NstError> {
+        self.refine(&checked(points)?, start)
+    }
+
+    fn refine(&self, points: &[Vector3<f64>], start: &Similarity) -> Result<Perceived, NstError> {
+        let mut rng = generator(0, "nst refiner points");
+        let mut all: Vec<usize> = (0..points.len()).collect();
+        let mut rows = take_shuffled(&mut all, points.len().min(MOST_POINTS), &mut rng);
+        let seen = take_shuffled(&mut rows, Sizes::REFINER.points, &mut rng);
+        let seen: Vec<Vector3<f64>> = seen.iter().map(|row| points[*row]).collect();
+        rows.sort_unstable();
+        let asked: Vec<Vector3<f64>> = rows.iter().map(|row| points[*row]).collect();
+        let mut pose = *start;
+        for _ in 1..PASSES {
+            let (readout, _) = ask(&self.refiner, &pose, &seen, &seen, false)?;
+            pose = fit(&seen, &readout).ok_or(NstError::NoPose)?;
+        }
+        let (mut readout, features) = ask(&self.refiner, &pose, &seen, &asked, false)?;
+        let (mirrored, _) = ask(&self.refiner, &pose, &seen, &asked, true)?;
+        average(&mut readout, &mirrored);
+        let alignment = fit(&asked, &readout).ok_or(NstError::NoPose)?;
+        let nocs = readout.values.into_iter().map(Point3::from).collect();
+        Ok(Perceived { rows, nocs, confidence: readout.confidence, features, alignment })
+    }
+}
+
+fn checked(points: &[Point3<f64>]) -> Result<Vec<Vector3<f64>>, NstError> {
+    if points.len() < FEWEST_POINTS {
+        return Err(NstError::TooFewPoints(points.len()));
+    }
+    if !points.iter().all(|p| p.coords.iter().all(|v| v.is_finite())) {
+        return Err(NstError::NotFinite);
+    }
+    Ok(points.iter().map(|p| p.coords).collect())
+}
+
+/// The pose that the coarse network's answers make (`world` -> centred canonical
+/// coordinates), on points drawn with `seed`; nothing when they determine none.
+///
+/// # Errors
+/// What candle reports.
+pub fn coarse_pose(
+    network: &Network,
+    points: &[Vector3<f64>],
+    camera: &Point3<f64>,
+    seed: u64,
+) -> candle_core::Result<Option<Similarity>> {
+    let mut rng = generator(seed, "nst coarse points");
+    let mut all: Vec<usize> = (0..points.len()).collect();
+    let rows = take_shuffled(&mut all, Sizes::COARSE.points, &mut rng);
+    let seen: Vec<Vector3<f64>> = rows.iter().map(|row| points[*row]).collect();
+    let frame = camera_frame(&seen, camera);
+    let cloud: Vec<Point> =
+        seen.iter().map(|p| from_metres(&(frame * Point3::from(*p)).coords)).collect();
+    let batch = Batch::new(network.sizes(), &[(&cloud, &cloud)])?;
+    let readout = read(&network.forward(&batch)?.logits)?;
+    let to: Vec<Vector3<f64>> = readout.values.iter().map(unfold).collect();
+    Ok(folded(&seen, &to, &weights_of(&readout)))
+}
+
+/// One refiner pass: coordinates and features of `asked`, seen in `pose`.
+fn ask(
+    network: &Network,
+    pose: &Similarity,
+    seen: &[Vector3<f64>],
+    asked: &[Vector3<f64>],
+    mirrored: bool,
+) -> candle_core::Result<(Readout, Vec<f32>)> {
+    let place = |points: &[Vector3<f64>]| -> Vec<Point> {
+        let side = if mirrored { -1.0 } else { 1.0 };
+        let place = |p| moved(pose, p).component_mul(&Vector3::new(side, 1.0, 1.0));
+        points.iter().map(|p| from_canonical(&place(p))).collect()
+    };
+    let (cloud, queries) = (place(seen), place(asked));
+    let batch = Batch::new(network.sizes(), &[(&cloud, &queries)])?;
+    let output = network.forward(&batch)?;
+    let mut readout = read(&output.logits)?;
+    if mirrored {
+        readout.values.iter_mut().for_each(|v| v[0] = 1.0 - v[0]);
+    }
+    let features = output.features.flatten_all()?.to_vec1()?;
+    debug_assert_eq!(features.len(), asked.len() * FEATURES);
+    Ok((readout, features))
+}
+
+fn average(readout: &mut Readout, other: &Readout) {
+    let halve = |a: &mut Vec<[f64; 3]>, b: &Vec<[f64; 3]>| {
+        for (a, b) in a.iter_mut().flatten().zip(b.iter().flatten()) {
+            *a = 0.5 * (*a + b);
+        }
+    };
+    halve(&mut readout.values, &other.values);
+    halve(&mut readout.confidence, &other.confidence);
+}
+
+fn weights_of(readout: &Readout) -> Vec<f64> {
+    readout.confidence.iter().map(|c| c[0] * c[1] * c[2]).collect()
+}
+
+fn fit(points: &[Vector3<f64>], readout: &Readout) -> Option<Similarity> {
+    let to: Vec<Vector3<f64>> =
+        readout.values.iter().map(|v| Vector3::from(*v) - Vector3::repeat(0.5)).collect();
+    robust(points, &to, &weights_of(readout))
+}

@@ -1,0 +1,25 @@
+//! Kind `kinematics`: two solvers for the joint positions that bring the tool to a pose.
+//!
+//! Both descend on the linearised pose error from good starts: [`QpIk`] takes each step
+//! from a quadratic program that knows the joint limits, [`DampedLeastSquares`] from the
+//! damped normal equations. Descent from one start ends in a local minimum at a joint
+//! limit for one target in seven, whatever takes the steps, so the starts come from the
+//! closed form where the arm has three parallel joints and an intersecting wrist pair
+//! (the UR family), and from seeded draws otherwise.
+
+mod closed_form;
+mod config;
+mod damped;
+mod descent;
+mod linearised;
+mod quadratic;
+mod seeds;
+mod solver;
+mod subproblem;
+
+#[cfg(test)]
+mod tests;
+
+pub use closed_form::ClosedForm;
+pub use config::IkConfig;
+pub use solver::{DampedLeastSquares, QpIk};

@@ -1,0 +1,192 @@
+//! The simulated robots: a UR5 with an AG-95 gripper that moves the simulated cell's hand.
+//!
+//! Two implementations of kind `robot`: `ur5-ag95-sim`, whose joint servos lag behind
+//! their commands as real ones do, and `ideal-sim`, which tracks exactly and so tells an
+//! error of the plan from one of the servos.
+
+mod servo;
+
+use nalgebra::DVector;
+use seeone_core::robot::RobotModel;
+use seeone_plugin::{
+    Action, GripReport, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample,
+    RobotState, Setup,
+};
+use seeone_sim::cell::{Cell, FRAME_S};
+use serde::Deserialize;
+use servo::Servo;
+use std::sync::{Arc, Mutex, MutexGuard};
+
+/// The first command may be this far from where the joints are, radians.
+const START_TOLERANCE_RAD: f64 = 0.02;
+/// A position limit may be passed by rounding only, radians.
+const LIMIT_TOLERANCE_RAD: f64 = 1e-6;
+/// The slowest grip takes this long, seconds: full stroke at the gripper's speed, twice.
+const GRIP_LIMIT_S: f64 = 4.0;
+/// Frames between two samples for the watcher: thirty a second.
+const FRAMES_PER_SAMPLE: usize = 2;
+
+/// The plugin's own table.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Configuration {
+    /// Time constant of the joint servos, seconds.
+    servo_lag_s: f64,
+}
+
+impl Default for Configuration {
+    fn default() -> Self {
+        Self { servo_lag_s: 0.02 }
+    }
+}
+
+/// A simulated arm with a gripper.
+pub struct SimulatedArm {
+    cell: Arc<Mutex<Cell>>,
+    model: RobotModel,
+    servo: Servo,
+    joints: Vec<f64>,
+}
+
+impl SimulatedArm {
+    /// `ur5-ag95-sim`: with servo lag.
+    ///
+    /// # Errors
+    /// [`PluginError::Configuration`] for an unknown key, a lag that is negative or not
+    /// finite, or a cell that is not simulated.
+    pub fn lagging(setup: &Setup) -> Result<Self, PluginError> {
+        let configuration: Configuration = setup.configuration()?;
+        Self::with_servo(setup, Servo::new(configuration.servo_lag_s)?)
+    }
+
+    /// `ideal-sim`: exact tracking.
+    ///
+    /// # Errors
+    /// [`PluginError::Configuration`] for any key, or a cell that is not simulated.
+    pub fn ideal(setup: &Setup) -> Result<Self, PluginError> {
+        match setup.config.keys().next() {
+            Some(key) => {
+                Err(PluginError::Configuration(format!("ideal-sim takes no table, found \"{key}\"")))
+            }
+            None => Self::with_servo(setup, Servo::new(0.0)?),
+        }
+    }
+
+    fn with_servo(setup: &Setup, servo: Servo) -> Result<Self, PluginError> {
+        let model = setup.robot()?.clone();
+        let joints = model.home().to_vec();
+        let arm = Self { cell: setup.world::<Mutex<Cell>>()?, model, servo, joints };
+        let pose = arm.model.tool_pose(&arm.joints);
+        arm.lock()?.place_hand(&pose);
+        Ok(arm)
+    }
+
+    fn lock(&self) -> Result<MutexGuard<'_, Cell>, PluginError> {
+        self.cell.lock().map_err(|_| PluginError::Internal("the simulated cell broke down".into()))
+    }
+
+    fn check(&self, trajectory: &JointTrajectory) -> Result<(), PluginError> {
+        let refuse = |what: String| Err(PluginError::Input(what));
+        if !(trajectory.period_s.is_finite() && trajectory.period_s > 0.0) {
+            return refuse(format!("a sample period of {} s", trajectory.period_s));
+        }
+        let Some(first) = trajectory.positions.first() else {
+            return refuse("an empty trajectory".into());
+        };
+        for (index, sample) in trajectory.positions.iter().enumerate() {
+            if sample.len() != self.joints.len() {
+                return refuse(format!("sample {index} has {} joints", sample.len()));
+            }
+            for (value, joint) in sample.iter().zip(self.model.joints()) {
+                if !value.is_finite() {
+                    return refuse(format!("sample {index} of {} is not finite", joint.name()));
+                }
+                let low = joint.lower() - LIMIT_TOLERANCE_RAD;
+                let high = joint.upper() + LIMIT_TOLERANCE_RAD;
+                if *value < low || *value > high {
+                    return refuse(format!("sample {index} takes {} to {value:.3} rad", joint.name()));
+                }
+            }
+        }
+        let jump = (DVector::from_column_slice(first) - DVector::from_column_slice(&self.joints)).amax();
+        if jump > START_TOLERANCE_RAD {
+            return refuse(format!("the trajectory starts {jump:.3} rad from where the arm is"));
+        }
+        Ok(())
+    }
+
+    fn follow(
+        &mut self,
+        trajectory: &JointTrajectory,
+        watch: &mut dyn FnMut(&RobotSample),
+    ) -> Result<(), PluginError> {
+        self.check(trajectory)?;
+        let frames = (trajectory.duration_s() / FRAME_S).ceil() as usize + self.servo.tail_frames();
+        for frame in 1..=frames {
+            let Some(command) = trajectory.at(frame as f64 * FRAME_S) else { break };
+            self.servo.track(&mut self.joints, &command);
+            let pose = self.model.tool_pose(&self.joints);
+            self.lock()?.advance(&pose).map_err(PluginError::Internal)?;
+            if frame % FRAMES_PER_SAMPLE == 0 || frame == frames {
+                watch(&self.sample()?);
+            }
+        }
+        Ok(())
+    }
+
+    fn grip(
+        &mut self,
+        command: GripperCommand,
+        watch: &mut dyn FnMut(&RobotSample),
+    ) -> Result<(), PluginError> {
+        match command {
+            GripperCommand::Close { force_n } if force_n.is_finite() && force_n > 0.0 => {
+                self.lock()?.close(force_n);
+            }
+            GripperCommand::Open { opening_m } if opening_m.is_finite() && opening_m >= 0.0 => {
+                self.lock()?.open(opening_m);
+            }
+            other => return Err(PluginError::Input(format!("{other:?} is no command to grip"))),
+        }
+        let pose = self.model.tool_pose(&self.joints);
+        for frame in 0..(GRIP_LIMIT_S / FRAME_S) as usize {
+            let moving = {
+                let mut cell = self.lock()?;
+                cell.advance(&pose).map_err(PluginError::Internal)?;
+                cell.fingers_move()
+            };
+            if frame % FRAMES_PER_SAMPLE == 0 {
+                watch(&self.sample()?);
+            }
+            if !moving {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn sample(&self) -> Result<RobotSample, PluginError> {
+        let cell = self.lock()?;
+        let state = RobotState { joints: self.joints.clone(), opening_m: cell.opening_m() };
+        Ok(RobotSample { time_s: cell.time_s(), state })
+    }
+}
+
+impl Robot for SimulatedArm {
+    fn state(&mut self) -> Result<RobotState, PluginError> {
+        Ok(self.sample()?.state)
+    }
+
+    fn execute(
+        &mut self,
+        action: &Action,
+        watch: &mut dyn FnMut(&RobotSample),
+    ) -> Result<GripReport, PluginError> {
+        match action {
+            Action::Move(trajectory) => self.follow(trajectory, watch)?,
+            Action::Grip(command) => self.grip(*command, watch)?,
+        }
+        let cell = self.lock()?;
+        Ok(GripReport { opening_m: cell.opening_m(), holding: cell.pads_feel_load() })
+    }
+}
