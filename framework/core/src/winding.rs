@@ -15,21 +15,28 @@ const ON_CORNER: f64 = 1e-12;
 /// The winding number of `mesh` about `point`: positive inside where triangles run
 /// counter-clockwise seen from outside. Time is linear in the number of triangles.
 pub fn winding_number(mesh: &TriangleMesh, point: &Point3<f64>) -> f64 {
-    let sum: f64 = (0..mesh.triangles().len())
-        .map(|i| solid_angle(&mesh.corners(i).map(|corner| corner - point)))
-        .sum();
-    sum / (4.0 * std::f64::consts::PI)
+    // A vertex is a corner of about six triangles: its distance is taken once.
+    let seen: Vec<(Vector3<f64>, f64)> = mesh
+        .vertices()
+        .iter()
+        .map(|vertex| {
+            let direction = vertex - point;
+            (direction, direction.norm())
+        })
+        .collect();
+    let angle = |t: &[u32; 3]| solid_angle(t.map(|v| seen[v as usize]));
+    mesh.triangles().iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
 
-/// The signed solid angle in steradians of the triangle with corners at `corners`, seen
-/// from the origin: tan(angle / 2) = det[a b c] / (abc + (a.b)c + (b.c)a + (c.a)b).
-fn solid_angle([a, b, c]: &[Vector3<f64>; 3]) -> f64 {
-    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+/// The signed solid angle in steradians of the triangle with these corners (each with its
+/// distance), seen from the origin:
+/// tan(angle / 2) = det[a b c] / (abc + (a.b)c + (b.c)a + (c.a)b).
+fn solid_angle([(a, la), (b, lb), (c, lc)]: [(Vector3<f64>, f64); 3]) -> f64 {
     if la.min(lb).min(lc) < ON_CORNER {
         return 0.0;
     }
-    let numerator = a.dot(&b.cross(c));
-    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    let numerator = a.dot(&b.cross(&c));
+    let denominator = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
     2.0 * numerator.atan2(denominator)
 }
 

@@ -82,7 +82,7 @@ pub enum TrainError {
 impl Plan {
     fn check(&self) -> Result<(), TrainError> {
         let wrong = |what: &str| Err(TrainError::Plan(what.into()));
-        if self.batch == 0 || self.batch % SHARDS != 0 {
+        if self.batch == 0 || !self.batch.is_multiple_of(SHARDS) {
             return wrong("the batch must be even and not empty");
         }
         if self.samples == 0 || self.checkpoint_every == 0 {

@@ -17,7 +17,7 @@ const SPACING_M: f64 = 0.36;
 const SKIN: Color = [0.86, 0.72, 0.62];
 const GROUND: Color = [0.62, 0.66, 0.68];
 const VIEW: Intrinsics =
-    Intrinsics { width: 1200, height: 720, fx: 1500.0, fy: 1500.0, cx: 599.5, cy: 359.5 };
+    Intrinsics { width: 1200, height: 720, fx: 1300.0, fy: 1300.0, cx: 599.5, cy: 359.5 };
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -30,14 +30,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let place = Vector3::new((i % COLUMNS) as f64, -((i / COLUMNS) as f64), 0.0) * SPACING_M;
         let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, -2.5);
-        let head = Pose::from_parts(Translation3::from(place + Vector3::z() * 0.10), turn);
+        let head = Pose::from_parts(Translation3::from(place + Vector3::z() * 0.16), turn);
         let on_head: Vec<Point3<f64>> =
             worn(&cap, &Settings::default())?.vertices.iter().map(|v| head * v).collect();
         parts.push((scenery::head(&head), Paint::Plain(SKIN)));
         parts.push((cap.mesh().with_vertices(on_head)?, paint(&cap, i)));
     }
     let rows = parts.len().div_ceil(2 * COLUMNS);
-    let middle = Vector3::new(1.5, -0.5 * (rows - 1) as f64, 0.3) * SPACING_M;
+    let middle = Vector3::new(1.5, -0.5 * (rows - 1) as f64, 0.45) * SPACING_M;
     let ground = scenery::rectangle([middle.x, middle.y], [8.0, 8.0], 0.0);
     parts.push((ground, Paint::Plain(GROUND)));
     let scene: Vec<Colored> =

@@ -3,7 +3,7 @@
 use crate::object::Object;
 use crate::surroundings::Surroundings;
 use crate::world::{Settings, World};
-use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use rand::Rng;
 use seeone_core::Pose;
 use seeone_core::random::{direction, rotation, uniform};
@@ -63,16 +63,16 @@ impl Drop {
     }
 }
 
-/// The lowest of some points, metres.
-pub fn lowest(points: &[Point3<f64>]) -> f64 {
-    points.iter().map(|p| p.z).fold(f64::INFINITY, f64::min)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::category::cap;
+    use nalgebra::Point3;
     use seeone_core::random::generator;
+
+    fn lowest(points: &[Point3<f64>]) -> f64 {
+        points.iter().map(|p| p.z).fold(f64::INFINITY, f64::min)
+    }
 
     #[test]
     fn a_dropped_cap_comes_to_rest_on_the_mat_near_its_place() {

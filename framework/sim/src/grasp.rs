@@ -20,6 +20,9 @@ const COMPLIANCE_M_N: f64 = 1.0e-5;
 /// the friction inside hanging fabric.
 const SWING_DAMPING_1_S: f64 = 3.0;
 
+/// Time over which rubber pads even out a jolt, seconds.
+const PADS_GIVE_S: f64 = 0.1;
+
 /// A vertex moved by the hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pin {
@@ -43,6 +46,8 @@ pub struct Grasp {
     pins: Vec<Pin>,
     anchors: Vec<Anchor>,
     points: usize,
+    /// Mean of what the hand gave the shell, over the time that the pads give way.
+    load: Momentum,
 }
 
 impl Grasp {
@@ -88,7 +93,7 @@ impl Grasp {
         let pin = |v: &usize| Pin { vertex: *v, at: local(&shell.position[*v]) };
         let pins = vertices.iter().map(pin).collect();
         shell.pin(&vertices);
-        Some(Self { force_n, pins, anchors, points: held.len() })
+        Some(Self { force_n, pins, anchors, points: held.len(), load: Momentum::zero() })
     }
 
     /// How many points are held.
@@ -130,9 +135,18 @@ impl Grasp {
         self.anchors.iter().map(off).fold(0.0, f64::max)
     }
 
-    /// Whether the grip carries `load`, what the hand gave the shell per second (N, and
-    /// N m about the world's origin), with `friction` between pad and shell.
-    pub fn carries(&self, load: &Momentum, hand: &Hand, friction: f64) -> bool {
+    /// Whether the grip still carries its load after a frame of `frame_s` seconds in which
+    /// the hand gave the shell `load` per second (N, and N m about the world's origin),
+    /// with `friction` between pad and shell.
+    ///
+    /// What counts is the mean over the time in which rubber pads give way: a sheet that
+    /// the closing pads were still turning is stopped in one frame here, which real pads
+    /// stretch over several.
+    pub fn carries(&mut self, load: &Momentum, hand: &Hand, friction: f64, frame_s: f64) -> bool {
+        let share = (frame_s / PADS_GIVE_S).min(1.0);
+        self.load.linear += (load.linear - self.load.linear) * share;
+        self.load.angular += (load.angular - self.load.angular) * share;
+        let load = &self.load;
         let centre = hand.pose.translation.vector;
         let force = hand.pose.rotation.inverse() * load.linear;
         let torque = hand.pose.rotation.inverse() * (load.angular - centre.cross(&load.linear));

@@ -1,7 +1,7 @@
 //! Meshes of what does not move: the table and the mat on it, a head.
 
 use crate::surroundings::HEAD_SEMI_AXES_M;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Translation3, Vector3};
 use seeone_core::{Pose, TriangleMesh};
 
 /// A rectangle in the plane `z = height`, centred at `centre`, facing up.
@@ -18,9 +18,58 @@ pub fn table() -> TriangleMesh {
     rectangle([0.0, 0.0], [3.0, 3.0], 0.0)
 }
 
-/// The head's ellipsoid with its frame at `pose` in `world`.
+/// A drawn head is smaller than its collider by this, metres: the chords of a mesh that
+/// rests on the collider lie inside it, and the skin would show through.
+const HEAD_INSET_M: f64 = 0.002;
+/// The nose: middle in the head frame and semi-axes, metres. It tells where the face looks.
+const NOSE_M: [[f64; 3]; 2] = [[0.0, 0.084, -0.054], [0.010, 0.016, 0.016]];
+/// Radii of the stand's column and of its foot, metres.
+const COLUMN_M: f64 = 0.022;
+const FOOT_M: f64 = 0.075;
+/// Thickness of the foot, metres.
+const FOOT_HEIGHT_M: f64 = 0.012;
+
+/// A mannequin's head with its frame at `pose` in `world`, on a stand on the table. The
+/// nose and the stand are for the eye alone: nothing collides with them.
 pub fn head(pose: &Pose) -> TriangleMesh {
-    ellipsoid(&HEAD_SEMI_AXES_M.into(), pose)
+    let semi_axes = Vector3::from(HEAD_SEMI_AXES_M).add_scalar(-HEAD_INSET_M);
+    let [nose, nose_axes] = NOSE_M.map(Vector3::from);
+    let place = pose.translation.vector;
+    let foot = Point3::new(place.x, place.y, FOOT_HEIGHT_M);
+    joined(&[
+        ellipsoid(&semi_axes, pose),
+        ellipsoid(&nose_axes, &(pose * Translation3::from(nose))),
+        column(&foot, place.z.max(2.0 * FOOT_HEIGHT_M), COLUMN_M),
+        column(&Point3::new(place.x, place.y, 0.0), FOOT_HEIGHT_M, FOOT_M),
+    ])
+}
+
+/// Several meshes as one.
+fn joined(meshes: &[TriangleMesh]) -> TriangleMesh {
+    let mut vertices: Vec<Point3<f64>> = Vec::new();
+    let mut triangles = Vec::new();
+    for mesh in meshes {
+        let offset = vertices.len() as u32;
+        vertices.extend(mesh.vertices());
+        triangles.extend(mesh.triangles().iter().map(|t| t.map(|v| v + offset)));
+    }
+    TriangleMesh::new(vertices, triangles).expect("whole meshes joined are whole")
+}
+
+/// An upright cylinder from `bottom` to the height `top`, closed above.
+fn column(bottom: &Point3<f64>, top: f64, radius: f64) -> TriangleMesh {
+    const AROUND: u32 = 40;
+    let mut vertices = vec![Point3::new(bottom.x, bottom.y, top)];
+    let mut triangles = Vec::new();
+    for i in 0..AROUND {
+        let (s, c) = (std::f64::consts::TAU * f64::from(i) / f64::from(AROUND)).sin_cos();
+        let on_rim = |z: f64| Point3::new(bottom.x + radius * c, bottom.y + radius * s, z);
+        vertices.extend([on_rim(top), on_rim(bottom.z)]);
+        let [up, down] = [1 + 2 * i, 2 + 2 * i];
+        let [next_up, next_down] = [1 + 2 * ((i + 1) % AROUND), 2 + 2 * ((i + 1) % AROUND)];
+        triangles.extend([[0, up, next_up], [up, down, next_down], [up, next_down, next_up]]);
+    }
+    TriangleMesh::new(vertices, triangles).expect("every index lies on the rims")
 }
 
 /// An ellipsoid of these semi-axes (metres) about `pose`.
@@ -47,4 +96,30 @@ pub fn ellipsoid(semi_axes_m: &Vector3<f64>, pose: &Pose) -> TriangleMesh {
         })
         .collect();
     TriangleMesh::new(vertices, triangles).expect("every index lies in the grid")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_faces_outwards() {
+        let ball = ellipsoid(&Vector3::new(0.1, 0.2, 0.3), &Pose::identity());
+        let post = column(&Point3::origin(), 0.4, 0.1);
+        for (mesh, middle) in [(ball, Point3::origin()), (post, Point3::new(0.0, 0.0, 0.2))] {
+            for i in 0..mesh.triangles().len() {
+                let [a, b, c] = mesh.corners(i);
+                let normal = (b - a).cross(&(c - a));
+                assert!(normal.dot(&(a - middle)) >= -1e-12, "triangle {i} looks inwards");
+            }
+        }
+    }
+
+    #[test]
+    fn a_head_stands_on_the_table_inside_its_collider() {
+        let mesh = head(&Pose::translation(0.3, 0.2, 0.35));
+        let (low, high) = mesh.bounds();
+        assert!(low.z.abs() < 1e-12);
+        assert!((high.z - (0.35 + HEAD_SEMI_AXES_M[2] - HEAD_INSET_M)).abs() < 1e-9);
+    }
 }

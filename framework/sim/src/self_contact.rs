@@ -1,12 +1,11 @@
 //! Contact of a shell with itself: vertices against triangles.
 //!
-//! Pairs are found once a frame, with a margin for how far they can move until the next;
+//! Pairs are found with a margin, anew whenever something has moved through half of it;
 //! each pair remembers on which side of the triangle its vertex is, so that a vertex
 //! pushed through in one substep is brought back in the next.
 
 mod grid;
 
-use crate::shell::Shell;
 use grid::Grid;
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
@@ -15,10 +14,12 @@ use seeone_core::TriangleMesh;
 const SEPARATION_M: f64 = 3.0e-3;
 /// Largest push in one substep, as a share of the separation: a faster one pops.
 const PUSH_SHARE: f64 = 0.1;
-/// Pairs are found within the separation, this slack and the frame's motion...
-const SLACK_M: f64 = 1.0e-3;
-/// ...but never beyond this distance, metres.
-const REACH_LIMIT_M: f64 = 0.02;
+/// Pairs are found this much beyond the separation, metres.
+const MARGIN_M: f64 = 5.0e-3;
+/// Pairs are found within this distance, metres.
+const REACH_M: f64 = SEPARATION_M + MARGIN_M;
+/// Edge of a cell of the search grid, metres: about an edge of the mesh.
+const GRID_CELL_M: f64 = 0.02;
 /// What is this near at rest, or this little outside in barycentric coordinates, is no
 /// pair: a seam would push itself open.
 const REST_CLEARANCE_M: f64 = 2.0 * SEPARATION_M;
@@ -44,6 +45,8 @@ pub struct SelfContact {
     /// Ascending by triangle, then vertex.
     pairs: Vec<Pair>,
     fresh: Vec<Pair>,
+    /// Where the vertices were when the pairs were found; empty before the first time.
+    found_at: Vec<Point3<f64>>,
 }
 
 /// Where a vertex is above a triangle.
@@ -64,11 +67,11 @@ impl SelfContact {
     /// Contact among the triangles of the rest shape `mesh`.
     pub fn new(mesh: &TriangleMesh) -> Self {
         let mut grid = Grid::default();
-        grid.fill(mesh.vertices(), REACH_LIMIT_M);
+        grid.fill(mesh.vertices(), GRID_CELL_M);
         let exempt = |index: usize| {
             let corners = mesh.corners(index);
             let mut near = mesh.triangles()[index].to_vec();
-            grid.for_each_around(&corners, REACH_LIMIT_M, |vertex| {
+            grid.for_each_around(&corners, REACH_M, |vertex| {
                 let at_rest = above(&mesh.vertices()[vertex as usize], &corners);
                 if at_rest
                     .is_none_or(|a| a.is_over(REST_OVERLAP) && a.height.abs() < REST_CLEARANCE_M)
@@ -85,31 +88,46 @@ impl SelfContact {
             grid,
             pairs: Vec::new(),
             fresh: Vec::new(),
+            found_at: Vec::new(),
         }
     }
 
-    /// Finds the pairs that may touch within the next `frame_s` seconds.
-    pub fn find(&mut self, shell: &Shell, frame_s: f64) {
-        let mean = shell.velocity.iter().sum::<Vector3<f64>>() / shell.velocity.len() as f64;
-        let fastest = shell.velocity.iter().map(|v| (v - mean).norm()).fold(0.0, f64::max);
-        let reach = (SEPARATION_M + SLACK_M + 2.0 * fastest * frame_s).min(REACH_LIMIT_M);
-        self.grid.fill(&shell.position, REACH_LIMIT_M);
+    /// Keeps the layers apart in one substep. The pushes conserve momentum.
+    pub fn solve(&mut self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
+        if self.is_stale(position) {
+            self.find(position);
+        }
+        self.push(position, inverse_mass);
+    }
+
+    /// Whether a pair may have come near since the pairs were found. Motion that all
+    /// vertices share does not count.
+    fn is_stale(&self, position: &[Point3<f64>]) -> bool {
+        let moved = || position.iter().zip(&self.found_at).map(|(now, then)| now - then);
+        let mean = moved().sum::<Vector3<f64>>() / position.len() as f64;
+        let limit = (MARGIN_M / 2.0) * (MARGIN_M / 2.0);
+        self.found_at.len() != position.len() || moved().any(|m| (m - mean).norm_squared() > limit)
+    }
+
+    fn find(&mut self, position: &[Point3<f64>]) {
+        self.found_at.clear();
+        self.found_at.extend_from_slice(position);
+        self.grid.fill(position, GRID_CELL_M);
         self.fresh.clear();
-        let Self { triangles, exempt, grid, pairs, fresh } = self;
+        let Self { triangles, exempt, grid, pairs, fresh, .. } = self;
         for (t, triangle) in triangles.iter().enumerate() {
-            let corners = triangle.map(|v| shell.position[v as usize]);
-            grid.for_each_around(&corners, reach, |vertex| {
+            let corners = triangle.map(|v| position[v as usize]);
+            grid.for_each_around(&corners, REACH_M, |vertex| {
                 if exempt[t].binary_search(&vertex).is_ok() {
                     return;
                 }
-                let Some(above) = above(&shell.position[vertex as usize], &corners) else { return };
-                if above.height.abs() > reach {
+                let Some(above) = above(&position[vertex as usize], &corners) else { return };
+                if above.height.abs() > REACH_M {
                     return;
                 }
                 let key = (t as u32, vertex);
                 let known = pairs.binary_search_by_key(&key, |p| (p.triangle, p.vertex));
                 let side = match known {
-                    // Beside the triangle a vertex may change sides: it goes round it.
                     Ok(index) if above.is_over(OVERLAP) => pairs[index].side,
                     _ => above.height.signum(),
                 };
@@ -120,15 +138,19 @@ impl SelfContact {
         std::mem::swap(pairs, fresh);
     }
 
-    /// Pushes apart the pairs that are too close. The push conserves momentum.
-    pub fn solve(&self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
-        for pair in &self.pairs {
+    fn push(&mut self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
+        for pair in &mut self.pairs {
             let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
             let corners = ids.map(|v| position[v]);
             let vertex = pair.vertex as usize;
             let Some(above) = above(&position[vertex], &corners) else { continue };
+            if !above.is_over(OVERLAP) {
+                // Beside the triangle a vertex may change sides: it goes round it.
+                pair.side = above.height.signum();
+                continue;
+            }
             let gap = above.height * pair.side;
-            if !above.is_over(OVERLAP) || !(-REACH_LIMIT_M..SEPARATION_M).contains(&gap) {
+            if !(-REACH_M..SEPARATION_M).contains(&gap) {
                 continue;
             }
             let inverse: f64 = inverse_mass[vertex]
@@ -178,12 +200,13 @@ mod tests {
             Point3::new(0.0, 0.02, 0.0),
             Point3::new(0.005, 0.005, -0.001),
         ];
-        let contact = SelfContact {
+        let mut contact = SelfContact {
             triangles: vec![[0, 1, 2]],
-            exempt: Vec::new(),
+            exempt: vec![vec![0, 1, 2]],
             grid: Grid::default(),
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0 }],
             fresh: Vec::new(),
+            found_at: points.clone(),
         };
         for _ in 0..100 {
             contact.solve(&mut points, &[1.0; 4]);

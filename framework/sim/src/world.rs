@@ -75,9 +75,6 @@ impl World {
         let h = FRAME_S / substeps as f64;
         let last_whole = self.shell.position.clone();
         let before = self.shell.momentum();
-        if self.settings.self_contact {
-            self.self_contact.find(&self.shell, FRAME_S);
-        }
         if let Some(fingers) = &mut self.fingers {
             fingers.begin_frame();
             self.pads.begin_frame(&self.shell, fingers);

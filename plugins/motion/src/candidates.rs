@@ -1,9 +1,10 @@
 //! The branches on which the arm can reach a pose.
 
+use crate::failure::Failure;
 use seeone_core::Pose;
 use seeone_core::random::{generator, uniform};
 use seeone_core::robot::RobotModel;
-use seeone_plugin::{IkQuery, IkStatus, Kinematics, PluginError};
+use seeone_plugin::{IkQuery, IkStatus, Kinematics};
 use std::f64::consts::TAU;
 
 /// Postures nearer than this are one branch, radians.
@@ -11,22 +12,24 @@ const SAME_RAD: f64 = 0.1;
 /// Questions asked for each branch wanted.
 const QUESTIONS: usize = 4;
 
-/// Up to `count` postures that bring the tool to `target`, the nearest to `near` first,
-/// or why there is none. The kinematics is asked from `near` and then from seeded
+/// Up to `count` postures that bring the tool to `target`, the nearest to `near` first.
+/// The kinematics is asked from `near` and then from seeded
 /// postures all over the joints' range.
 ///
 /// # Errors
-/// [`PluginError`] of the kinematics.
+/// By how much the target is out of reach, when no posture reaches it.
 pub(crate) fn candidates(
     robot: &RobotModel,
     kinematics: &dyn Kinematics,
     target: &Pose,
     near: &[f64],
     count: usize,
-) -> Result<Result<Vec<Vec<f64>>, String>, PluginError> {
+) -> Result<Vec<Vec<f64>>, Failure> {
     let first = kinematics.solve(robot, &IkQuery { target, near, continuous: false })?;
     if first.status != IkStatus::Solved {
-        return Ok(Err(first.reason.unwrap_or_else(|| "no posture reaches it".into())));
+        return Err(Failure::Infeasible(
+            first.reason.unwrap_or_else(|| "no posture reaches it".into()),
+        ));
     }
     let mut found = vec![first.joints];
     let mut rng = generator(0, "branches");
@@ -45,7 +48,7 @@ pub(crate) fn candidates(
         }
     }
     found.sort_by(|a, b| cost(robot, a, near).total_cmp(&cost(robot, b, near)));
-    Ok(Ok(found))
+    Ok(found)
 }
 
 /// Joint travel from `near` and closeness to limits; smaller is better.

@@ -1,10 +1,11 @@
 //! Straight lines of the tool on one branch of the arm.
 
+use crate::failure::Failure;
 use nalgebra::Translation3;
 use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
-use seeone_plugin::{IkQuery, IkStatus, Kinematics, PluginError};
+use seeone_plugin::{IkQuery, IkStatus, Kinematics};
 
 /// Largest joint step between two poses of a line, radians: a larger one is a jump to
 /// another branch or a passage through a singularity.
@@ -14,10 +15,10 @@ const TURN_RAD: f64 = 0.05;
 
 /// Follows a straight line (and the shortest turn) from the tool's pose at `start` to
 /// `target` in steps of at most `step_m`. `fault` says what is wrong with a posture.
-/// Gives the postures, `start` first, or why the line cannot be followed.
+/// Gives the postures, `start` first.
 ///
 /// # Errors
-/// [`PluginError`] of the kinematics.
+/// How far the line can be followed and why no further.
 pub(crate) fn follow(
     robot: &RobotModel,
     kinematics: &dyn Kinematics,
@@ -25,7 +26,7 @@ pub(crate) fn follow(
     target: &Pose,
     step_m: f64,
     fault: &dyn Fn(&[f64]) -> Option<String>,
-) -> Result<Result<Vec<Vec<f64>>, String>, PluginError> {
+) -> Result<Vec<Vec<f64>>, Failure> {
     let from = robot.tool_pose(start);
     let (length, turn) = difference(&from, target);
     let steps = (length / step_m).max(turn / TURN_RAD).ceil().max(1.0);
@@ -40,7 +41,7 @@ pub(crate) fn follow(
         let found = kinematics.solve(robot, &query)?;
         if found.status != IkStatus::Solved {
             let why = found.reason.unwrap_or_else(|| "no posture".into());
-            return Ok(Err(format!("{}: {why}", far())));
+            return Err(Failure::Infeasible(format!("{}: {why}", far())));
         }
         let before = &path[path.len() - 1];
         let jumps = robot.joints().iter().zip(found.joints.iter().zip(before));
@@ -48,14 +49,17 @@ pub(crate) fn follow(
         if let Some((jump, joint)) = jump.max_by(|a, b| a.0.total_cmp(&b.0))
             && jump > JUMP_RAD
         {
-            return Ok(Err(format!("{}: {joint} would jump by {jump:.2} rad", far())));
+            return Err(Failure::Infeasible(format!(
+                "{}: {joint} would jump by {jump:.2} rad",
+                far()
+            )));
         }
         if let Some(why) = fault(&found.joints) {
-            return Ok(Err(format!("{}: {why}", far())));
+            return Err(Failure::Infeasible(format!("{}: {why}", far())));
         }
         path.push(found.joints);
     }
-    Ok(Ok(path))
+    Ok(path)
 }
 
 /// The pose `share` of the way along a straight line and the shortest turn.

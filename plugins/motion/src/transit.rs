@@ -2,6 +2,7 @@
 
 use crate::MotionConfig;
 use crate::checker::{Checker, Contact, Rules};
+use crate::failure::Failure;
 use crate::rrt::{Search, distance};
 use rand::RngExt;
 use seeone_core::random::Generator;
@@ -19,8 +20,10 @@ pub(crate) enum Style {
     Planned,
 }
 
-/// A free path of straight lines in joint space from `start` to `goal`, or why there is
-/// none. What hangs in the hand stays as far from obstacles as the two ends allow.
+/// A free path of straight lines in joint space from `start` to `goal`. What hangs in the hand stays as far from obstacles as the two ends allow.
+///
+/// # Errors
+/// What is in the way.
 pub(crate) fn transit(
     robot: &RobotModel,
     config: &MotionConfig,
@@ -29,7 +32,7 @@ pub(crate) fn transit(
     style: Style,
     (start, goal): (&[f64], &[f64]),
     rng: &mut Generator,
-) -> Result<Vec<Vec<f64>>, String> {
+) -> Result<Vec<Vec<f64>>, Failure> {
     let ends = || checker.held_clearance(start).min(checker.held_clearance(goal));
     // The margin is for rounding: the ends themselves must pass.
     let held_radius_m = holding.then(|| config.held_radius_m.min(ends() - 1e-6));
@@ -37,14 +40,15 @@ pub(crate) fn transit(
     let blocked = |a: &[f64], b: &[f64]| first_contact(config, checker, &rules, a, b);
     for (end, name) in [(start, "start"), (goal, "end")] {
         if let Some(contact) = checker.contact(end, &rules) {
-            return Err(format!("at the transit's {name} {contact}"));
+            return Err(Failure::Infeasible(format!("at its {name} {contact}")));
         }
     }
     let Some(contact) = blocked(start, goal) else {
         return Ok(vec![start.to_vec(), goal.to_vec()]);
     };
     if style == Style::Straight {
-        return Err(format!("the straight joint move is blocked: {contact}"));
+        let reason = format!("the straight joint move is blocked: {contact}");
+        return Err(Failure::Infeasible(reason));
     }
     let joints = robot.joints().iter().zip(start.iter().zip(goal));
     let bounds: Vec<(f64, f64)> = joints
@@ -57,10 +61,10 @@ pub(crate) fn transit(
     let search = Search { bounds: &bounds, free: &free, extensions: config.extensions };
     match search.connect(start, goal, rng) {
         Some(path) => Ok(shortened(path, config.shortcuts, &free, rng)),
-        None => Err(format!(
+        None => Err(Failure::Infeasible(format!(
             "no free path after {} extensions; the straight one is blocked: {contact}",
             config.extensions
-        )),
+        ))),
     }
 }
 

@@ -3,13 +3,14 @@
 use crate::MotionConfig;
 use crate::candidates::limit_cost;
 use crate::checker::{Checker, Rules};
+use crate::failure::{Failure, StageFailure};
 use crate::hand::Hand;
 use crate::line::follow;
 use nalgebra::{Translation3, Vector3};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
-use seeone_plugin::{GripperCommand, KeyPose, Kinematics, PluginError};
+use seeone_plugin::{GripperCommand, KeyPose, Kinematics};
 
 /// One line or grip of a walk.
 pub(crate) struct Leg<'a> {
@@ -38,12 +39,6 @@ pub(crate) struct Walker<'a> {
     pub(crate) hand: Hand,
 }
 
-/// Why there is no walk, and at which stage.
-pub(crate) struct Fault {
-    pub(crate) stage: String,
-    pub(crate) reason: String,
-}
-
 /// A walk that can be done.
 pub(crate) struct Walk<'a> {
     pub(crate) legs: Vec<Leg<'a>>,
@@ -59,10 +54,13 @@ impl<'a> Walker<'a> {
     }
 
     /// Whether the arm may stand at `q` at a key pose.
-    pub(crate) fn stands(&self, q: &[f64]) -> Result<(), String> {
+    ///
+    /// # Errors
+    /// What it would touch.
+    pub(crate) fn stands(&self, q: &[f64]) -> Result<(), Failure> {
         let rules = Rules { fingers_may_touch: true, held_radius_m: None };
         match self.checker(&self.hand).contact(q, &rules) {
-            Some(contact) => Err(contact.to_string()),
+            Some(contact) => Err(Failure::Infeasible(contact.to_string())),
             None => Ok(()),
         }
     }
@@ -70,58 +68,44 @@ impl<'a> Walker<'a> {
     /// Walks all key poses with the arm at `first` at the first of them.
     ///
     /// # Errors
-    /// [`PluginError`] of the kinematics.
-    pub(crate) fn walk(&self, first: &[f64]) -> Result<Result<Walk<'a>, Fault>, PluginError> {
-        let mut walk =
-            Walk { legs: Vec::new(), entry: first.to_vec(), exit: first.to_vec(), limit_cost: 0.0 };
+    /// The stage and line that cannot be followed, and why.
+    pub(crate) fn walk(&self, first: &[f64]) -> Result<Walk<'a>, StageFailure> {
+        let mut walk = Walk {
+            legs: Vec::new(),
+            entry: first.to_vec(),
+            exit: first.to_vec(),
+            limit_cost: limit_cost(self.robot, first),
+        };
         let mut hand = self.hand;
         for (index, key) in self.keys.iter().enumerate() {
-            let fault = |what: &str, reason| Fault {
-                stage: key.stage.clone(),
-                reason: format!("{what}: {reason}"),
-            };
-            if index == 0 && key.approach_m > 0.0 {
+            if index > 0 {
+                let path = self.line(key, "approach", &walk.exit, &key.pose, &hand)?;
+                walk.limit_cost += limit_cost(self.robot, &path[path.len() - 1]);
+                walk.push(key, "approach", path, false, true);
+            } else if key.approach_m > 0.0 {
+                // Followed backwards, from where the branch is known.
                 let back = key.pose * Translation3::new(0.0, 0.0, -key.approach_m);
-                match self.line(first, &back, &hand)? {
-                    Ok(mut path) => {
-                        path.reverse();
-                        walk.entry.clone_from(&path[0]);
-                        walk.push(key, "approach", path, false, true);
-                    }
-                    Err(reason) => return Ok(Err(fault("approach", reason))),
-                }
-            } else if index > 0 {
-                match self.line(&walk.exit, &key.pose, &hand)? {
-                    Ok(path) => walk.push(key, "approach", path, false, true),
-                    Err(reason) => return Ok(Err(fault("approach", reason))),
-                }
+                let mut path = self.line(key, "approach", first, &back, &hand)?;
+                path.reverse();
+                walk.entry.clone_from(&path[0]);
+                walk.push(key, "approach", path, false, true);
             }
-            walk.limit_cost += limit_cost(self.robot, &walk.exit);
             if let Some(command) = key.gripper {
-                walk.legs.push(Leg {
-                    stage: &key.stage,
-                    purpose: "grip",
-                    deed: Deed::Grip(command),
-                });
+                let deed = Deed::Grip(command);
+                walk.legs.push(Leg { stage: &key.stage, purpose: "grip", deed });
                 hand = hand.after(key.gripper);
             }
-            let up = Translation3::from(Vector3::z() * key.lift_m);
-            let back = Translation3::new(0.0, 0.0, -key.retreat_m);
-            let departures = [
-                ("lift", key.lift_m, up * key.pose),
-                ("retreat", key.retreat_m, up * key.pose * back),
-            ];
+            let lifted = Translation3::from(Vector3::z() * key.lift_m) * key.pose;
+            let retreated = lifted * Translation3::new(0.0, 0.0, -key.retreat_m);
+            let departures = [("lift", key.lift_m, lifted), ("retreat", key.retreat_m, retreated)];
             for (purpose, length, target) in departures {
-                if length == 0.0 {
-                    continue;
-                }
-                match self.line(&walk.exit, &target, &hand)? {
-                    Ok(path) => walk.push(key, purpose, path, true, false),
-                    Err(reason) => return Ok(Err(fault(purpose, reason))),
+                if length > 0.0 {
+                    let path = self.line(key, purpose, &walk.exit, &target, &hand)?;
+                    walk.push(key, purpose, path, true, false);
                 }
             }
         }
-        Ok(Ok(walk))
+        Ok(walk)
     }
 
     fn checker(&self, hand: &Hand) -> Checker<'a> {
@@ -131,10 +115,12 @@ impl<'a> Walker<'a> {
     /// A line that touches nothing but, with the fingers, near the key poses.
     fn line(
         &self,
+        key: &KeyPose,
+        purpose: &str,
         start: &[f64],
         target: &Pose,
         hand: &Hand,
-    ) -> Result<Result<Vec<Vec<f64>>, String>, PluginError> {
+    ) -> Result<Vec<Vec<f64>>, StageFailure> {
         let checker = self.checker(hand);
         let fault = |q: &[f64]| {
             let tool = self.robot.tool_pose(q).translation.vector;
@@ -145,6 +131,7 @@ impl<'a> Walker<'a> {
             checker.contact(q, &rules).map(|contact| contact.to_string())
         };
         follow(self.robot, self.kinematics, start, target, self.config.line_step_m, &fault)
+            .map_err(|failure| failure.at(&key.stage, purpose))
     }
 }
 

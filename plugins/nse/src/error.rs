@@ -16,6 +16,9 @@ pub enum NseError {
     /// The training set cannot be learnt from.
     #[error("the training set cannot be learnt from: {0}")]
     Data(String),
+    /// The frozen perception failed, as opposed to refusing a cloud.
+    #[error("perception: {0}")]
+    Perception(PluginError),
     /// The training could not go on.
     #[error(transparent)]
     Training(#[from] TrainError),
@@ -29,6 +32,7 @@ impl From<NseError> for PluginError {
         match error {
             NseError::Cloud(_) => Self::Input(error.to_string()),
             NseError::File(_) | NseError::Data(_) => Self::Resource(error.to_string()),
+            NseError::Perception(fault) => fault,
             NseError::Training(_) | NseError::Network(_) => Self::Internal(error.to_string()),
         }
     }

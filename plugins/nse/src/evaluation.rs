@@ -5,6 +5,7 @@ use crate::{Nse, NseError, Supervision};
 use nalgebra::Point3;
 use rayon::prelude::*;
 use seeone_core::frames::{Frame, read_all};
+use seeone_nn::Card;
 use seeone_plugin::Field;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -24,7 +25,8 @@ pub struct Figures {
 }
 
 /// Measures the encoding behind its perception on the frames of a set that show an object
-/// at rest. Frames that the perception refuses are left out.
+/// at rest. Frames that the perception refuses are left out. `None` when `progress` breaks
+/// off.
 ///
 /// # Errors
 /// [`NseError::File`] when the set cannot be read, [`NseError::Data`] when no frame is
@@ -34,10 +36,12 @@ pub fn evaluate(
     data: &Path,
     perceive: Perceive,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Figures, NseError> {
+) -> Result<Option<Figures>, NseError> {
     let (index, frames) = read_all(data)?;
     let settled: Vec<&Frame> = frames.iter().filter(|f| f.info.settled).collect();
-    let lessons = perceived(&settled, perceive, progress).unwrap_or_default();
+    let Some(lessons) = perceived(&settled, perceive, progress)? else {
+        return Ok(None);
+    };
     if lessons.is_empty() {
         return Err(NseError::Data("no frame of an object at rest was perceived".into()));
     }
@@ -61,9 +65,23 @@ pub fn evaluate(
         }
     }
     let count = (lessons.len() * QUERIES) as f64;
-    Ok(Figures {
+    Ok(Some(Figures {
         frames: lessons.len(),
         winding_error: error / count,
         constant_error: constant / count,
-    })
+    }))
+}
+
+/// Writes figures into the card in `folder`, under names that end in that of the `set`.
+///
+/// # Errors
+/// [`NseError::File`] when there is no card or it cannot be written.
+pub fn record(folder: &Path, set: &str, figures: &Figures) -> Result<(), NseError> {
+    let mut card = Card::read(folder)?;
+    card.figures.extend([
+        (format!("winding_error_{set}"), figures.winding_error),
+        (format!("winding_error_of_a_constant_{set}"), figures.constant_error),
+        (format!("frames_{set}"), figures.frames as f64),
+    ]);
+    Ok(card.write(folder)?)
 }

@@ -24,7 +24,7 @@ mod test_clouds;
 
 pub use encoding::{Nse, NseField};
 pub use error::NseError;
-pub use evaluation::{Figures, evaluate};
+pub use evaluation::{Figures, evaluate, record};
 pub use grasp_prior::GraspSpread;
 pub use input::{Input, OWN_COLUMNS};
 pub use nearest_feature::NearestFeature;

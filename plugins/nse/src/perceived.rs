@@ -28,29 +28,33 @@ pub enum Progress {
 /// The frozen perception: what it makes of a frame.
 pub type Perceive<'a> = &'a (dyn Fn(&Frame) -> Result<CanonicalCloud, PluginError> + Sync);
 
-/// What the perception makes of each frame, laid out for the network; `None` when
-/// `progress` breaks off.
+/// What the perception makes of each frame, laid out for the network, without the frames
+/// that it refuses; `None` when `progress` breaks off.
 pub(crate) fn perceived(
     frames: &[&Frame],
     perceive: Perceive,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
-) -> Option<Vec<Lesson>> {
+) -> Result<Option<Vec<Lesson>>, NseError> {
     let mut lessons = Vec::with_capacity(frames.len());
     for (number, portion) in frames.chunks(AT_ONCE).enumerate() {
         let done = number * AT_ONCE;
         if progress(Progress::Perceiving { done, total: frames.len() }).is_break() {
-            return None;
+            return Ok(None);
         }
-        let made: Vec<Option<Lesson>> = portion
-            .par_iter()
-            .map(|frame| {
-                let input = Input::new(&perceive(frame).ok()?).ok()?;
-                Some(Lesson { object: frame.info.object, input })
-            })
-            .collect();
+        let made: Vec<Option<Lesson>> =
+            portion.par_iter().map(|frame| lesson(frame, perceive)).collect::<Result<_, _>>()?;
         lessons.extend(made.into_iter().flatten());
     }
-    Some(lessons)
+    Ok(Some(lessons))
+}
+
+fn lesson(frame: &Frame, perceive: Perceive) -> Result<Option<Lesson>, NseError> {
+    let cloud = match perceive(frame) {
+        Ok(cloud) => cloud,
+        Err(PluginError::Input(_)) => return Ok(None),
+        Err(fault) => return Err(NseError::Perception(fault)),
+    };
+    Ok(Input::new(&cloud).ok().map(|input| Lesson { object: frame.info.object, input }))
 }
 
 /// The canonical mesh of each object of a set.

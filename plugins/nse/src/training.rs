@@ -59,7 +59,7 @@ pub fn train(
     let settled: Vec<Frame> = frames.into_iter().filter(|f| f.info.settled).collect();
     let stride = settled.len().div_ceil(plan.frames.max(1)).max(1);
     let chosen: Vec<&Frame> = settled.iter().step_by(stride).collect();
-    let Some(lessons) = perceived(&chosen, perceive, progress) else {
+    let Some(lessons) = perceived(&chosen, perceive, progress)? else {
         return Ok(Ending::Interrupted);
     };
     let meshes = canonical_meshes(&index)?;
@@ -67,23 +67,27 @@ pub fn train(
     std::fs::create_dir_all(&plan.out).map_err(|e| unwritable(&plan.out, &e))?;
     let mut parameters = Parameters::new(plan.seed);
     let nse = Nse::new(&mut parameters, lessons.columns())?;
-    let ending = fit(&nse, &parameters, &lessons, plan, &requirements(&perception), progress)?;
+    let requires = requirements(&perception);
+    let ending = fit(&nse, &parameters, &lessons, plan, &requires, progress)?;
     if ending == Ending::Finished {
-        let entry = weights::save(&plan.out.join(WEIGHTS_NAME), &parameters, Precision::Half)?;
         let figures = GraspSpread::of(&meshes).into_iter().flat_map(|spread| {
             [("grasp_spread_y_cube", spread.y), ("grasp_spread_z_cube", spread.z)]
         });
         let card = Card {
             schema: 1,
             network: NETWORK_NAME.into(),
-            category: perception.category.clone(),
+            category: perception.category,
             data_seed: index.seed,
             seed: plan.seed,
             command: plan.command.clone(),
             samples: BTreeMap::from([(NETWORK_NAME.into(), plan.samples)]),
-            requires: requirements(&perception),
+            requires,
             figures: figures.map(|(name, value)| (name.into(), value)).collect(),
-            weights: vec![entry],
+            weights: vec![weights::save(
+                &plan.out.join(WEIGHTS_NAME),
+                &parameters,
+                Precision::Half,
+            )?],
         };
         card.write(&plan.out)?;
         let checkpoint = plan.out.join(CHECKPOINT_NAME);
@@ -125,9 +129,9 @@ fn fit(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evaluate;
     use crate::test_caps::cap;
     use crate::test_clouds::{cloud, growth};
+    use crate::{evaluate, record};
     use seeone_core::frames::{CanonicalObject, FrameInfo, Index, write_index, write_shard};
     use seeone_plugin::{CanonicalCloud, PluginError};
 
@@ -209,7 +213,12 @@ mod tests {
 
         let nse = Nse::load(&out, folder.path()).expect("loaded");
         let figures = evaluate(&nse, folder.path(), &perceive, &mut |_| ControlFlow::Continue(()))
+            .expect("measured")
             .expect("figures");
+        record(&out, "train", &figures).expect("recorded");
+        let card = Card::read(&out).expect("a card");
+        assert_eq!(card.figures["winding_error_train"], figures.winding_error);
+        assert!(card.figures["grasp_spread_z_cube"] > 0.02);
         assert_eq!(figures.frames, 8);
         assert!(figures.winding_error < 0.85 * figures.constant_error, "{figures:?}");
 

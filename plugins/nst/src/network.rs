@@ -80,8 +80,6 @@ impl Network {
         let to_queries = FeaturePropagation::new(p, "fp2", FEATURES, 3, FEATURES)?;
         let hidden = Linear::new(p, "hidden", FEATURES, FEATURES, Activation::Relu)?;
         let head = Linear::new(p, "head", FEATURES, 3 * BINS, Activation::Identity)?;
-        let blocks = (fine, coarse, position, attention, to_centres, to_queries, hidden, head);
-        let (fine, coarse, position, attention, to_centres, to_queries, hidden, head) = blocks;
         Ok(Self {
             sizes,
             parameters,

@@ -14,7 +14,7 @@ use seeone_core::{Diagnostic, Similarity};
 use seeone_nn::ops::cross_entropy;
 use seeone_nn::train::Ending;
 use seeone_nn::weights::{self, Precision};
-use seeone_nn::{Card, Plan, Progress, TrainError, WeightsEntry, train as fulfil};
+use seeone_nn::{Card, Plan, Progress, TrainError, WeightsEntry, train as optimise};
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
@@ -112,7 +112,8 @@ pub fn train(plan: &TrainPlan, progress: Told<'_>) -> Result<Report, NstTrainErr
 
     let coarse = Network::new(Sizes::COARSE, plan.seed)?;
     let draw = |rng: &mut Generator| examples::coarse(&set.frames()[set.draw(rng)], rng);
-    if run(&coarse, plan, Stage::Coarse, &index, &draw, progress)? == Ending::Interrupted {
+    let data = format!("data seed {}", index.seed);
+    if run(&coarse, plan, Which::Coarse, &data, &draw, progress)? == Ending::Interrupted {
         return Ok(Report::Interrupted);
     }
     let coarse_entry = store(&coarse, &plan.out.join(COARSE_FILE))?;
@@ -128,31 +129,59 @@ pub fn train(plan: &TrainPlan, progress: Told<'_>) -> Result<Report, NstTrainErr
         };
         examples::refiner(&set.frames()[number], start, rng)
     };
-    if run(&refiner, plan, Stage::Refiner, &index, &draw, progress)? == Ending::Interrupted {
+    let data = format!("{data}, starts from {}", coarse_entry.blake3);
+    if run(&refiner, plan, Which::Refiner, &data, &draw, progress)? == Ending::Interrupted {
         return Ok(Report::Interrupted);
     }
     let refiner_entry = store(&refiner, &plan.out.join(REFINER_FILE))?;
 
     let mut card = card(plan, &index, vec![coarse_entry, refiner_entry]);
     card.write(&plan.out)?;
-    measure(plan, &mut card, progress)
+    let report = measure(plan, &mut card, progress)?;
+    for which in [Which::Coarse, Which::Refiner] {
+        let path = which.checkpoint(plan);
+        std::fs::remove_file(&path)
+            .map_err(|e| Diagnostic::new("N003", e.to_string()).in_file(&path))?;
+    }
+    Ok(report)
 }
 
-/// Trains one network.
+/// One of the two networks.
+#[derive(Clone, Copy)]
+enum Which {
+    Coarse,
+    Refiner,
+}
+
+impl Which {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Coarse => "coarse",
+            Self::Refiner => "refiner",
+        }
+    }
+
+    fn checkpoint(self, plan: &TrainPlan) -> PathBuf {
+        plan.out.join(self.name()).with_extension("checkpoint")
+    }
+}
+
+/// Trains one network on what `draw` makes of `data`.
 fn run(
     network: &Network,
     plan: &TrainPlan,
-    stage: Stage,
-    index: &Index,
+    which: Which,
+    data: &str,
     draw: &(dyn Fn(&mut Generator) -> Example + Sync),
     progress: Told<'_>,
 ) -> Result<Ending, NstTrainError> {
-    let (name, samples) = match stage {
-        Stage::Refiner => ("refiner", plan.refiner_samples),
-        _ => ("coarse", plan.coarse_samples),
+    let name = which.name();
+    let (samples, stage) = match which {
+        Which::Coarse => (plan.coarse_samples, Stage::Coarse),
+        Which::Refiner => (plan.refiner_samples, Stage::Refiner),
     };
     let inner = Plan {
-        label: format!("nst {name}, seed {}, data seed {}", plan.seed, index.seed),
+        label: format!("nst {name}, seed {}, {data}", plan.seed),
         samples,
         batch: BATCH,
         peak_rate: PEAK_RATE,
@@ -164,9 +193,9 @@ fn run(
         let (batch, targets) = stack(network.sizes(), &examples)?;
         cross_entropy(&network.forward(&batch)?.logits, targets)
     };
-    let checkpoint = plan.out.join(format!("{name}.checkpoint"));
-    let mut told = |progress_| progress(StageProgress { stage, progress: progress_ });
-    Ok(fulfil::train(network.parameters(), &inner, Some(&checkpoint), &loss, &mut told)?)
+    let mut told = |p| progress(StageProgress { stage, progress: p });
+    let checkpoint = which.checkpoint(plan);
+    Ok(optimise::train(network.parameters(), &inner, Some(&checkpoint), &loss, &mut told)?)
 }
 
 /// Stores weights in half precision and goes on with what was stored, so that everything
@@ -185,8 +214,8 @@ fn starts(
 ) -> Result<Vec<[Option<Similarity>; FITS]>, NstTrainError> {
     let total = set.frames().len() as u64;
     let mut tell = |done| {
-        let progress_ = Progress { done, total, loss: 0.0 };
-        let _ = progress(StageProgress { stage: Stage::Starts, progress: progress_ });
+        let told = Progress { done, total, loss: 0.0 };
+        let _ = progress(StageProgress { stage: Stage::Starts, progress: told });
     };
     tell(0);
     let fits = |frame: &AlignedFrame| -> candle_core::Result<[Option<Similarity>; FITS]> {
@@ -228,8 +257,8 @@ fn measure(plan: &TrainPlan, card: &mut Card, progress: Told<'_>) -> Result<Repo
     let mut all = BTreeMap::new();
     for (done, (name, folder)) in plan.measure_on.iter().enumerate() {
         let total = plan.measure_on.len() as u64;
-        let progress_ = Progress { done: done as u64, total, loss: 0.0 };
-        let _ = progress(StageProgress { stage: Stage::Evaluation, progress: progress_ });
+        let told = Progress { done: done as u64, total, loss: 0.0 };
+        let _ = progress(StageProgress { stage: Stage::Evaluation, progress: told });
         let (index, frames) = read_all(folder)?;
         let figures = evaluate(&nst, &index.objects, &frames);
         note(card, name, &figures);

@@ -23,8 +23,9 @@ use std::path::Path;
 
 /// The hand comes from so much above the visor's plane.
 const PITCH_DEG: f64 = 12.0;
-/// Grip force, newtons: the AG-95's least.
-const GRIP_N: f64 = 45.0;
+/// Grip force, newtons, of the 45 to 160 that an AG-95 has: enough to hold a visor flat
+/// between pads that come at it from above its plane.
+const GRIP_N: f64 = 140.0;
 /// The cap comes onto the head nose up by this, degrees, and levels at the very end.
 const NOSE_UP_DEG: f64 = 10.0;
 /// Heights over the worn pose at which it arrives, begins to level, and is let go, metres.

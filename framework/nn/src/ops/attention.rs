@@ -59,7 +59,11 @@ impl Sizes {
 impl Attention {
     fn sizes(&self, rows: usize, columns: usize) -> Result<Sizes> {
         let Self { tokens, heads, .. } = *self;
-        if tokens == 0 || heads == 0 || rows % tokens != 0 || columns % (3 * heads) != 0 {
+        if tokens == 0
+            || heads == 0
+            || !rows.is_multiple_of(tokens)
+            || !columns.is_multiple_of(3 * heads)
+        {
             bail!("attention: {rows} x {columns} is not {heads} heads over {tokens} tokens");
         }
         Ok(Sizes { clouds: rows / tokens, tokens, heads, width: columns / (3 * heads) })

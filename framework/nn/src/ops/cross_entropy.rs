@@ -58,7 +58,10 @@ impl CustomOp1 for CrossEntropy {
         let (rows, columns) = matrix_shape(layout)?;
         let BinTargets { values, weights, softness } = &self.targets;
         let axes = columns / BINS;
-        if axes == 0 || columns % BINS != 0 || values.len() != rows * axes || weights.len() != rows
+        if axes == 0
+            || !columns.is_multiple_of(BINS)
+            || values.len() != rows * axes
+            || weights.len() != rows
         {
             bail!("cross entropy: {rows} x {columns} logits, {} values", values.len());
         }

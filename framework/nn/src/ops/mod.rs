@@ -16,6 +16,8 @@ mod set_abstraction;
 mod slices;
 
 #[cfg(test)]
+mod candle_operations;
+#[cfg(test)]
 pub(crate) mod gradient_check;
 
 pub use attention::attention;

@@ -297,7 +297,7 @@ fn a_changed_character_is_told_or_harmless() {
     let folder = folder();
     let mut rng = generator(5, "changed characters");
     let mut accepted = 0;
-    for _ in 0..3000 {
+    for _ in 0..1000 {
         let mut text = SKILL.as_bytes().to_vec();
         let at = uniform(&mut rng, 0.0, text.len() as f64) as usize;
         text[at] = uniform(&mut rng, 32.0, 127.0) as u8;
@@ -310,5 +310,5 @@ fn a_changed_character_is_told_or_harmless() {
             }));
         }
     }
-    assert!((300..2700).contains(&accepted), "{accepted} of 3000 accepted");
+    assert!((30..900).contains(&accepted), "{accepted} of 1000 accepted");
 }

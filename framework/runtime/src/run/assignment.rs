@@ -80,9 +80,7 @@ impl Assignment {
             frames,
         })
     }
-}
 
-impl Assignment {
     /// The robot that carries it out.
     pub fn robot(&self) -> &RobotModel {
         &self.robot

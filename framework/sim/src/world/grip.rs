@@ -75,9 +75,11 @@ impl World {
                 let (hand, thickness_m) = (&fingers.now, self.thickness_m);
                 self.grasp = Grasp::form(&mut self.shell, samples, hand, thickness_m, force_n);
             }
-        } else if let Some(grasp) = &self.grasp {
+        } else if self.grasp.is_some() {
             let load = self.load_on_hand(before, given);
-            if !grasp.carries(&load, &fingers.now, self.surroundings.frictions.pad) {
+            let friction = self.surroundings.frictions.pad;
+            let carried = |grasp: &mut Grasp| grasp.carries(&load, &fingers.now, friction, FRAME_S);
+            if !self.grasp.as_mut().is_some_and(carried) {
                 self.release();
             }
         }

@@ -131,6 +131,7 @@ mod tests {
         assert!(named("cap-train-100").is_none() && named("hat").is_none());
     }
 
+    /// The longest edges are those of the fans that close the brim's ends.
     #[test]
     fn edges_are_neither_slivers_nor_gaps() {
         for name in names(Set::Unseen) {
@@ -140,7 +141,7 @@ mod tests {
                 for i in 0..3 {
                     let [a, b] = [t[i], t[(i + 1) % 3]].map(|v| vertices[v as usize]);
                     let length = (a - b).norm();
-                    assert!((0.003..0.055).contains(&length), "{name}: an edge of {length} m");
+                    assert!((0.003..0.075).contains(&length), "{name}: an edge of {length} m");
                 }
             }
         }
