@@ -3,6 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// The measured hot kernel: matrix products, whose library takes pointers.
+const HOT_KERNEL: &str = "framework/nn/src/matmul.rs";
+/// The library that writes tensors takes their notes as a map; there is one note.
+const ONE_NOTE: (&str, &str) = ("framework/nn/src/checkpoint.rs", "HashMap");
 const PLUGIN_PREFIX: &str = "plugins/";
 
 fn root() -> PathBuf {
@@ -96,7 +100,9 @@ fn no_plugin_depends_on_another_or_on_the_runtime() {
         for dependency in dependencies(&manifest) {
             let ours = dependency.starts_with("seeone");
             assert!(
-                !ours || allowed.contains(&dependency.as_str()) || Some(&dependency) == wraps.as_ref(),
+                !ours
+                    || allowed.contains(&dependency.as_str())
+                    || Some(&dependency) == wraps.as_ref(),
                 "{path} depends on {dependency}"
             );
         }
@@ -116,11 +122,11 @@ fn core_knows_neither_ecs_nor_tensors_nor_physics() {
 }
 
 #[test]
-fn unsafe_code_lives_in_the_abi_module_alone() {
+fn unsafe_code_lives_in_the_abi_module_and_one_kernel_alone() {
     for (path, text) in all_sources() {
         let lifted = text.contains("allow(unsafe_code") || text.contains("expect(unsafe_code");
         let abi = path.starts_with("framework/plugin/src/abi") || path.contains("-dylib/");
-        assert!(!lifted || abi, "{path} lifts the ban on unsafe code");
+        assert!(!lifted || abi || path == HOT_KERNEL, "{path} lifts the ban on unsafe code");
     }
 }
 
@@ -137,13 +143,19 @@ fn no_plugin_sees_the_ecs_world() {
 fn a_seeded_run_reads_no_clock_and_no_hash_order() {
     for (path, text) in all_sources() {
         // The binary may time its stages and show progress; tests may do as they like.
-        if path.starts_with("framework/cli/") || path.contains("/tests/") || path.contains("/benches/") || path.contains("/examples/") {
+        if path.starts_with("framework/cli/")
+            || path.contains("/tests/")
+            || path.contains("/benches/")
+            || path.contains("/examples/")
+        {
             continue;
         }
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        for word in ["Instant::now", "SystemTime::now", "thread_rng", "rand::rng(", "HashMap", "HashSet"] {
+        for word in
+            ["Instant::now", "SystemTime::now", "thread_rng", "rand::rng(", "HashMap", "HashSet"]
+        {
             let used = code.lines().any(|l| !l.trim_start().starts_with("//") && l.contains(word));
-            assert!(!used, "{path} uses {word}");
+            assert!(!used || (path.as_str(), word) == ONE_NOTE, "{path} uses {word}");
         }
     }
 }
@@ -170,7 +182,9 @@ fn robots_and_skills_do_not_name_each_other() {
             assert!(!robot_text.contains(skill.as_str()), "robot {robot} names skill {skill}");
             assert!(!skill_text.contains(robot.as_str()), "skill {skill} names robot {robot}");
         }
-        for joint in ["shoulder_pan", "shoulder_lift", "elbow_joint", "wrist_1", "wrist_2", "wrist_3"] {
+        for joint in
+            ["shoulder_pan", "shoulder_lift", "elbow_joint", "wrist_1", "wrist_2", "wrist_3"]
+        {
             assert!(!skill_text.contains(joint), "skill {skill} names the joint {joint}");
         }
     }

@@ -26,10 +26,16 @@ fn is_object(path: &Path) -> bool {
         .is_ok_and(|text| text.lines().any(|line| line.trim_start().starts_with("vertices")))
 }
 
-/// Weights are what the card beside them says they are.
+/// Weights are, to the byte, what the card beside them says they are.
 fn weights(path: &Path) -> Result<(), Diagnostic> {
+    let fault = |cause: String| Diagnostic::new("W002", cause).in_file(path);
     let folder = path.parent().unwrap_or(Path::new("."));
     let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default();
     let card = Card::read(folder)?;
-    card.entry(folder, name).map(drop)
+    let (entry, _) = card.entry(folder, name)?;
+    let bytes = fs::read(path).map_err(|e| fault(format!("cannot be read: {e}")))?;
+    if blake3::hash(&bytes).to_hex().as_str() != entry.blake3 {
+        return Err(fault("the weights are not those that the card describes".into()));
+    }
+    Ok(())
 }

@@ -1,11 +1,13 @@
 //! `seeone`: see one, do many. The one place that names the built-in plugins.
 
+mod advice;
 mod args;
 mod builtin;
 mod console;
 mod faults;
 mod files;
 mod objects;
+mod outputs;
 mod picture;
 mod rate;
 mod simulated;
@@ -15,7 +17,7 @@ mod workcell;
 use anyhow::Result;
 use args::{Cli, ObjectsAction, PluginsAction, Verb};
 use clap::Parser;
-use seeone_core::Diagnostic;
+use faults::Faults;
 use std::process::ExitCode;
 
 /// glibc's allocator returns every large tensor to the kernel at once; half of a training
@@ -72,10 +74,9 @@ fn report(error: &anyhow::Error) -> ExitCode {
     if is_broken_pipe(error) {
         return ExitCode::SUCCESS;
     }
-    let given_wrong = error.chain().find_map(|cause| cause.downcast_ref::<Diagnostic>());
-    match given_wrong {
-        Some(diagnostic) => {
-            console::tell(&diagnostic.to_string());
+    match Faults::of(error) {
+        Some(faults) => {
+            console::tell(&faults.to_string());
             ExitCode::from(2)
         }
         None => {

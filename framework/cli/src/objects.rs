@@ -1,10 +1,10 @@
 //! From what the user calls an object to the object itself.
 
+use crate::outputs::write_file;
 use anyhow::Result;
 use seeone_core::Diagnostic;
 use seeone_sim::category::cap::{self, Set};
 use seeone_sim::object::Object;
-use seeone_core::frames::write_whole;
 use seeone_sim::object_file::{self, ObjectFileFault};
 use std::fs;
 use std::path::Path;
@@ -72,9 +72,9 @@ pub fn read(path: &Path) -> Result<Object, Diagnostic> {
 /// Writes an object file, in one step.
 ///
 /// # Errors
-/// `O005` when it cannot be written.
+/// `F003` when it cannot be written, `O005` when TOML cannot hold it.
 pub fn write(object: &Object, path: &Path) -> Result<(), Diagnostic> {
-    let fault = |cause: String| Diagnostic::new("O005", cause).in_file(path);
-    let text = object_file::to_toml(object).map_err(|e| fault(e.to_string()))?;
-    write_whole(path, text.as_bytes()).map_err(|e| fault(e.to_string()))
+    let text = object_file::to_toml(object)
+        .map_err(|e| Diagnostic::new("O005", e.to_string()).in_file(path))?;
+    write_file(path, text.as_bytes())
 }

@@ -1,5 +1,6 @@
 //! The picture of a run: four moments side by side, drawn by the project's own rasteriser.
 
+use crate::outputs::write_file;
 use crate::simulated::SimulatedCell;
 use crate::workcell::Workcell;
 use anyhow::{Context, Result, anyhow};
@@ -11,8 +12,6 @@ use seeone_sim::depth_camera::looking_at;
 use seeone_sim::object::{Object, Region};
 use seeone_sim::picture::{Color, Colored, Paint, Picture, render};
 use seeone_sim::scenery;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 /// Where the picture is taken from, and what it looks at, in `world`, metres.
@@ -163,14 +162,12 @@ fn montage(panels: &[Picture]) -> Picture {
 /// # Errors
 /// When the file cannot be written.
 pub fn write_png(picture: &Picture, path: &Path) -> Result<()> {
-    let partial = path.with_extension("png.partial");
-    let told = || format!("cannot write {}", path.display());
-    let file = BufWriter::new(File::create(&partial).with_context(told)?);
-    let mut encoder = png::Encoder::new(file, picture.width as u32, picture.height as u32);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width as u32, picture.height as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().with_context(told)?;
-    writer.write_image_data(&picture.rgb).with_context(told)?;
-    writer.finish().with_context(told)?;
-    std::fs::rename(&partial, path).with_context(told)
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&picture.rgb)?;
+    writer.finish()?;
+    Ok(write_file(path, &bytes)?)
 }

@@ -3,6 +3,7 @@
 
 use anyhow::{Result, anyhow};
 use nalgebra::{Point3, Vector3};
+use seeone_core::Diagnostic;
 use seeone_core::random::generator;
 use seeone_plugin::{Judge, Measure, PluginError, Verdict, WorldHandle};
 use seeone_runtime::files::Scene;
@@ -35,8 +36,10 @@ impl SimulatedCell {
     /// When the object cannot be worn at all, or the simulation diverged.
     pub fn drop(scene: &Scene, object: Object, seed: u64) -> Result<Self> {
         let settings = Settings::default();
-        let worn = worn(&object, &settings)
-            .map_err(|fault| anyhow!(fault).context(format!("object \"{}\"", object.name())))?;
+        let worn = worn(&object, &settings).map_err(|fault| {
+            Diagnostic::new("O006", format!("object \"{}\": {fault}", object.name()))
+                .hint("import it for another --head-circumference, or choose another object")
+        })?;
         let head = Head { pose: scene.head.pose };
         let surroundings = Surroundings {
             table: true,

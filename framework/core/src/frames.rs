@@ -94,8 +94,10 @@ fn fault(path: &Path, cause: impl std::fmt::Display) -> Diagnostic {
 pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut partial = path.as_os_str().to_owned();
     partial.push(".partial");
-    fs::write(&partial, bytes)?;
-    fs::rename(&partial, path)
+    fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, path)).inspect_err(|_| {
+        // The first fault is the one to tell.
+        let _ = fs::remove_file(&partial);
+    })
 }
 
 /// Writes one shard.

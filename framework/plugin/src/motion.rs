@@ -27,12 +27,12 @@ pub struct KeyPose {
 /// What the arm must not touch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obstacle {
-    /// The half-space below `height_m` (world z), with a soft cover into which the hand
-    /// alone may sink by `soft_m`.
+    /// The half-space below `height_m` (world z), with a soft cover into which the
+    /// robot may sink by `soft_m`.
     Table {
         /// Top of the cover, metres.
         height_m: f64,
-        /// How far the hand may sink into it, metres.
+        /// How far the robot may sink into it, metres.
         soft_m: f64,
     },
     /// An ellipsoid, e.g. a head.

@@ -55,7 +55,7 @@ pub(crate) struct Checker<'a> {
     bodies: Vec<Body>,
     /// Pairs of bodies that could touch: neighbouring links cannot.
     pairs: Vec<(usize, usize)>,
-    /// Height of the table and how far the hand may sink into it.
+    /// Height of the table and how far the robot may sink into it.
     tables: Vec<(f64, f64)>,
     ellipsoids: Vec<(&'a str, Convex, Pose)>,
     held_centre: Translation3<f64>,
@@ -122,7 +122,7 @@ impl<'a> Checker<'a> {
         let moving = self.bodies.iter().zip(poses).filter(|(body, _)| body.link > 0);
         for (body, pose) in moving {
             for (height, soft) in &self.tables {
-                let floor = if body.kind == Kind::Arm { height + clearance } else { height - soft };
+                let floor = height - soft;
                 let depth_m = floor - body.shape.lowest(pose);
                 if depth_m > 0.0 {
                     return Some(contact(&body.name, "the table", depth_m));

@@ -15,6 +15,20 @@ pub struct Readout {
     pub confidence: Vec<[f64; 3]>,
 }
 
+impl Readout {
+    /// The mean of several answers about the same points.
+    pub fn mean(answers: &[Self]) -> Self {
+        let mean = |pick: fn(&Self) -> &Vec<[f64; 3]>| -> Vec<[f64; 3]> {
+            let count = answers.iter().map(|a| pick(a).len()).min().unwrap_or(0);
+            let at = |point: usize, axis: usize| -> f64 {
+                answers.iter().map(|a| pick(a)[point][axis]).sum::<f64>() / answers.len() as f64
+            };
+            (0..count).map(|point| std::array::from_fn(|axis| at(point, axis))).collect()
+        };
+        Self { values: mean(|a| &a.values), confidence: mean(|a| &a.confidence) }
+    }
+}
+
 /// Expectation over the winning bin and its neighbours: arg-max alone would cost up to half
 /// a bin, the expectation over all bins would average different places.
 fn read_bins(logits: &mut [f32]) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! `check`: the mistakes of files, told with their places, before anything moves.
 
 use crate::args::CheckArgs;
-use crate::{Ending, builtin, console, files};
+use crate::{Ending, advice, builtin, console, files};
 use anyhow::Result;
 use seeone_core::Diagnostic;
 use serde_json::json;
@@ -18,7 +18,7 @@ pub fn run(args: &CheckArgs) -> Result<Ending> {
         if found.is_empty() && !args.json {
             console::tell(&format!("{}: no fault found", file.display()));
         }
-        faults.extend(found);
+        faults.extend(found.into_iter().map(advice::complete));
     }
     if args.json {
         let rows: Vec<_> = faults.iter().map(row).collect();

@@ -1,11 +1,11 @@
 //! `data`: a training set, objects dropped, seen and labelled.
 
 use crate::args::DataArgs;
+use crate::outputs::make_folder;
 use crate::{Ending, console, objects};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use seeone_sim::dataset::{Plan, generate};
-use std::fs;
 
 /// Views of every moment that is kept.
 const VIEWS: usize = 2;
@@ -19,7 +19,7 @@ pub fn run(args: &DataArgs) -> Result<Ending> {
         .iter()
         .map(|name| objects::resolve(name))
         .collect::<Result<Vec<_>>>()?;
-    fs::create_dir_all(&args.out).with_context(|| format!("cannot make {}", args.out.display()))?;
+    make_folder(&args.out)?;
     let plan = Plan {
         objects,
         drops_per_object: args.drops,

@@ -69,7 +69,9 @@ pub fn run(args: &EvalArgs) -> Result<Ending> {
 
 fn report(args: &EvalArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
     let worn = |outcome: &Outcome, tolerance_d: f64| {
-        outcome.grasped == Some(true) && outcome.error_d.is_some_and(|e| e < tolerance_d)
+        let carried_out = outcome.stages.iter().all(|stage| stage.ok);
+        let near = outcome.error_d.is_some_and(|e| e < tolerance_d);
+        outcome.grasped == Some(true) && carried_out && near
     };
     let properly = |outcome: &Outcome| {
         worn(outcome, 0.1)

@@ -2,9 +2,10 @@
 
 use crate::args::ImportArgs;
 use crate::objects::{SETS, resolve, write};
+use crate::outputs::make_folder;
 use crate::picture::{colors, write_png};
 use crate::{Ending, console};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use nalgebra::Vector3;
 use seeone_core::{Diagnostic, Intrinsics};
 use seeone_sim::category::cap;
@@ -12,7 +13,6 @@ use seeone_sim::depth_camera::looking_at;
 use seeone_sim::import::{Axis, ImportFault, Options, cap_from_obj};
 use seeone_sim::picture::{Colored, Paint, render};
 use seeone_sim::scenery;
-use std::fs;
 use std::path::Path;
 
 /// Where an object is drawn from, metres, and with what lens.
@@ -42,7 +42,10 @@ pub fn list(json: bool) -> Result<Ending> {
 /// A diagnostic for a mesh, an axis or a size that makes no object.
 pub fn import(args: &ImportArgs) -> Result<Ending> {
     let axis = |flag: &str, text: &str| {
-        text.parse::<Axis>().map_err(|cause| Diagnostic::new("O002", format!("{flag}: {cause}")))
+        text.parse::<Axis>().map_err(|cause| {
+            Diagnostic::new("O002", format!("{flag}: {cause}"))
+                .hint("write for example --up +y --front +z")
+        })
     };
     let options = Options {
         up: axis("--up", &args.up)?,
@@ -85,7 +88,7 @@ fn told(mesh: &Path, fault: &ImportFault) -> Diagnostic {
 pub fn show(object: &str, out: &Path) -> Result<Ending> {
     let object = resolve(object)?;
     if let Some(folder) = out.parent() {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        make_folder(folder)?;
     }
     let (low, _) = object.mesh().bounds();
     let ground = scenery::rectangle([0.0, 0.0], [1.2, 1.2], low.z);

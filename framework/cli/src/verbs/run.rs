@@ -1,12 +1,12 @@
 //! `run`: one attempt, told as it happens.
 
 use crate::args::RunArgs;
+use crate::outputs::make_folder;
 use crate::picture::RunPicture;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use seeone_runtime::run::{Finished, Hooks, Outcome, StageEvent};
-use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
@@ -21,7 +21,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
         Some(name) => objects::resolve(name)?,
         None => objects::for_attempt(&workcell.scene.object, args.seed)?,
     };
-    fs::create_dir_all(&args.out).with_context(|| format!("cannot make {}", args.out.display()))?;
+    make_folder(&args.out)?;
     console::tell(&format!(
         "{} with {} on {}, seed {}",
         workcell.skill.name,

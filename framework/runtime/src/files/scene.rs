@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct Table {
     /// Top of the mat, metres above the world's origin.
     pub height_m: f64,
-    /// How far the hand may sink into the mat, metres.
+    /// How far the robot may sink into the mat, metres.
     pub soft_m: f64,
     /// Coulomb friction of the mat.
     pub friction: f64,

@@ -59,7 +59,7 @@ struct RawDrop {
     height_m: Spanned<f64>,
 }
 
-/// How far the hand may sink into the mat when the file does not say it, metres.
+/// How far the robot may sink into the mat when the file does not say it, metres.
 const SOFT_M: f64 = 0.03;
 /// The farthest coordinate of a table or a drop zone, metres.
 const FARTHEST_M: f64 = 5.0;

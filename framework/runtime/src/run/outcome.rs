@@ -24,7 +24,7 @@ pub struct Outcome {
     pub methods: Vec<(Kind, String)>,
     /// Held after the lift; `None` when nobody could tell, as after a dry run.
     pub grasped: Option<bool>,
-    /// Within the skill's tolerance; `None` when nobody could tell.
+    /// Every stage carried out, and within the skill's tolerance; `None` when nobody could tell.
     pub success: Option<bool>,
     /// Mean vertex distance to the worn state, metres.
     pub error_m: Option<f64>,
@@ -67,7 +67,8 @@ impl Outcome {
             seed: assignment.seed,
             methods: methods.collect(),
             grasped: verdict.map(|verdict| verdict.grasped),
-            success: verdict.map(|verdict| verdict.success),
+            // An object that the hand lost on the way may lie where it should; it was not put there.
+            success: verdict.map(|verdict| verdict.success && failed.is_none()),
             error_m: verdict.and_then(|verdict| verdict.error_m),
             error_d: verdict.and_then(|verdict| verdict.error_d),
             tilt_deg: verdict.and_then(|verdict| verdict.tilt_deg),

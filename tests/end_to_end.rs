@@ -1,0 +1,236 @@
+//! Whole runs of the binary on an unseen cap: what is printed, drawn and recorded, that
+//! the same seed gives the same bytes, and that every plugin can take its part.
+
+mod support;
+
+use seeone_runtime::record::{Channel, Recording, read};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use support::{Call, root, seeone};
+use tempfile::TempDir;
+
+const SKILL: &str = "skills/cap-wearing.toml";
+const SEED: &str = "1";
+
+/// A run of the shipped skill with the shipped robot and scene, and what it left.
+struct Attempt {
+    folder: TempDir,
+    call: Call,
+    outcome: Value,
+}
+
+impl Attempt {
+    /// Makes it with `extra` arguments. Whatever becomes of it, it is an attempt: exit
+    /// status 0 with success, 1 with a reason for the failure.
+    fn new(extra: &[&str]) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let out = folder.path().display().to_string();
+        let mut words = vec!["run", SKILL, "--json", "--seed", SEED, "--out", &out];
+        words.extend(extra);
+        let call = seeone(&words);
+        assert!(matches!(call.status, Some(0 | 1)), "{extra:?}: {:?} {}", call.status, call.stderr);
+        let outcome: Value = serde_json::from_str(&call.stdout).expect("one JSON object");
+        assert!(!outcome["reason"].as_str().expect("a reason").is_empty(), "{extra:?}");
+        let dry = extra.contains(&"--dry-run");
+        assert_eq!(outcome["success"] == true, call.status == Some(0) && !dry, "{outcome}");
+        Self { folder, call, outcome }
+    }
+
+    /// The bytes of the recording.
+    fn recording(&self) -> Vec<u8> {
+        fs::read(self.recording_path()).expect("a recording")
+    }
+
+    fn recording_path(&self) -> PathBuf {
+        PathBuf::from(self.outcome["recording"].as_str().expect("a recording"))
+    }
+
+    /// What was printed, without what a clock measured and where the files went.
+    fn told(&self) -> Value {
+        timeless(&self.outcome)
+    }
+
+    /// The files it left, by extension.
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.folder.path()).expect("the folder");
+        let mut names: Vec<String> = entries
+            .map(|e| e.expect("an entry").path())
+            .map(|path| path.extension().expect("an extension").to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn stage(&self, name: &str) -> Option<&Value> {
+        self.outcome["stages"].as_array()?.iter().find(|stage| stage["name"] == name)
+    }
+}
+
+/// An outcome without `timings_ms`, the stages' `seconds` and the path of the recording.
+fn timeless(outcome: &Value) -> Value {
+    let mut told = outcome.clone();
+    let keys = told.as_object_mut().expect("an object");
+    keys.remove("timings_ms");
+    keys.remove("recording");
+    for stage in told["stages"].as_array_mut().expect("stages") {
+        stage.as_object_mut().expect("a stage").remove("seconds");
+    }
+    told
+}
+
+#[test]
+fn a_run_tells_draws_and_records_itself_and_its_seed_repeats_it() {
+    let once = Attempt::new(&[]);
+    for key in [
+        "skill",
+        "object",
+        "robot",
+        "seed",
+        "methods",
+        "grasped",
+        "success",
+        "error_m",
+        "error_d",
+        "tilt_deg",
+        "yaw_deg",
+        "reason",
+        "stages",
+        "timings_ms",
+        "recording",
+    ] {
+        assert!(once.outcome.get(key).is_some(), "{key} is missing in {}", once.call.stdout);
+    }
+    for stage in once.outcome["stages"].as_array().expect("stages") {
+        assert!(stage["name"].is_string() && stage["ok"].is_boolean(), "{stage}");
+        assert!(stage["seconds"].as_f64().is_some_and(|s| s >= 0.0), "{stage}");
+        assert!(stage["reason"].is_string() != (stage["ok"] == true), "{stage}");
+    }
+    for step in ["observe", "perceive", "encode", "transfer", "plan", "act"] {
+        assert!(once.outcome["timings_ms"][step].as_f64().is_some_and(|ms| ms > 0.0), "{step}");
+    }
+    assert!(once.outcome["error_m"].as_f64().is_some_and(|e| e.is_finite() && e >= 0.0));
+    assert_eq!(once.files(), ["mcap", "png"]);
+    let recording = read(&once.recording_path()).expect("a sound recording");
+    for channel in Channel::ALL {
+        assert!(recording.of(channel).next().is_some(), "nothing in {}", channel.topic());
+    }
+    agrees(&recording, &once.outcome);
+    library_serves_like_the_linked_plugin(&once);
+
+    let again = Attempt::new(&[]);
+    assert_eq!(once.told(), again.told());
+    assert!(once.recording() == again.recording(), "the recordings differ");
+}
+
+/// The recording ends as the run told, and the object moved as far as it lasted.
+fn agrees(recording: &Recording, outcome: &Value) {
+    let verdict = &recording.of(Channel::Verdict).last().expect("a verdict").body;
+    for key in ["grasped", "success"] {
+        assert_eq!(verdict[key], outcome[key], "{key}");
+    }
+    let run = &recording.of(Channel::Run).next().expect("a run").body;
+    assert_eq!(run["methods"], outcome["methods"]);
+    assert_eq!(run["seed"], outcome["seed"]);
+    assert!(recording.duration_s() > 1.0);
+    let times: Vec<f64> = recording.of(Channel::Robot).map(|entry| entry.time_s).collect();
+    assert!(times.is_sorted(), "the robot's moments are out of order");
+}
+
+/// The alignment plugin from a dynamic library, trusted first, changes nothing.
+fn library_serves_like_the_linked_plugin(linked: &Attempt) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let library = folder.path().join("libprocrustes.so");
+    fs::copy(built_library(), &library).expect("the library");
+    let library = library.display().to_string();
+    let trusted = seeone(["plugins", "trust", &library]);
+    assert_eq!(trusted.status, Some(0), "{}", trusted.stderr);
+    let loaded = Attempt::new(&["--plugin", &library]);
+    assert_eq!(linked.told(), loaded.told());
+    assert!(linked.recording() == loaded.recording(), "the recordings differ");
+    let mut bytes = fs::read(&library).expect("the library");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&library, bytes).expect("a changed library");
+    let changed = seeone(["run", SKILL, "--plugin", &library]);
+    assert_eq!(changed.status, Some(2), "{}", changed.stderr);
+    assert!(changed.stderr.contains("BLAKE3"), "{}", changed.stderr);
+}
+
+/// `procrustes` as a dynamic library, built beside this test.
+fn built_library() -> PathBuf {
+    let build =
+        ["build", "--release", "--quiet", "-p", "seeone-procrustes", "--example", "procrustes"];
+    let cargo = Command::new(env!("CARGO")).args(build).current_dir(root()).status();
+    assert!(cargo.expect("cargo starts").success(), "the library cannot be built");
+    let target = Path::new(env!("CARGO_BIN_EXE_seeone")).ancestors().nth(2).expect("a folder");
+    target.join("release/examples/libprocrustes.so")
+}
+
+#[test]
+fn a_dry_run_plans_and_moves_nothing() {
+    let dry = Attempt::new(&["--dry-run"]);
+    assert!(dry.outcome["timings_ms"].get("act").is_none_or(|ms| ms.as_f64() < Some(1.0)));
+    assert!(dry.stage("pick").is_none(), "{}", dry.call.stdout);
+    let recording = read(&dry.recording_path()).expect("a sound recording");
+    let moments: Vec<&Value> = recording.of(Channel::Robot).map(|entry| &entry.body).collect();
+    assert!(moments.iter().all(|body| body["joints"] == moments[0]["joints"]), "the robot moved");
+    let planned = dry.stage("plan").is_some_and(|stage| stage["ok"] == true);
+    assert_eq!(dry.call.status, Some(i32::from(!planned)), "{}", dry.call.stdout);
+}
+
+#[test]
+fn every_other_plugin_reaches_an_honest_outcome() {
+    for (kind, name) in [
+        ("transfer", "unchanged"),
+        ("transfer", "snap"),
+        ("alignment", "ransac"),
+        ("kinematics", "damped-least-squares"),
+        ("motion", "joint-line"),
+        ("robot", "ideal-sim"),
+        ("encoding", "nearest-feature"),
+    ] {
+        let attempt = Attempt::new(&["--method", &format!("{kind}={name}")]);
+        assert_eq!(attempt.outcome["methods"][kind], name);
+        assert!(attempt.stage("plan").is_some(), "{kind}={name}: {}", attempt.call.stdout);
+    }
+}
+
+#[test]
+fn a_cap_made_by_others_is_imported_and_tried() {
+    let mesh = root().join("../shared/objects/baseball_cap_danlyvostok.obj");
+    let Ok(mesh) = mesh.canonicalize() else {
+        eprintln!("skipped: the imported cap is not beside this repository");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let object = folder.path().join("baseball.toml").display().to_string();
+    let mesh = mesh.display().to_string();
+    let words = ["--up", "+y", "--head-circumference", "0.57", "--out", &object];
+    let imported = seeone(["objects", "import", &mesh].into_iter().chain(words));
+    assert_eq!(imported.status, Some(0), "{}", imported.stderr);
+    let checked = seeone(["check", &object]);
+    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
+    let attempt = Attempt::new(&["--object", &object]);
+    assert_eq!(attempt.outcome["object"], "baseball_cap_danlyvostok");
+    assert!(attempt.stage("perceive").is_some_and(|stage| stage["ok"] == true));
+}
+
+#[test]
+fn an_evaluation_does_not_depend_on_its_jobs() {
+    let evaluated = |jobs: &str| {
+        let call = seeone(["eval", SKILL, "--attempts", "2", "--jobs", jobs, "--json"]);
+        assert_eq!(call.status, Some(0), "{}", call.stderr);
+        let mut report: Value = serde_json::from_str(&call.stdout).expect("one JSON object");
+        let attempts = report["attempts"].as_array_mut().expect("attempts");
+        attempts.iter_mut().for_each(|attempt| *attempt = timeless(attempt));
+        report
+    };
+    let (one, two) = (evaluated("1"), evaluated("2"));
+    assert_eq!(one, two);
+    assert_eq!(one["grasped"]["attempts"], 2);
+    assert_eq!(one["attempts"][0]["seed"], 0);
+    assert_eq!(one["attempts"][1]["seed"], 1);
+    assert_ne!(one["attempts"][0]["object"], one["attempts"][1]["object"]);
+}
