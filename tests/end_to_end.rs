@@ -1,13 +1,15 @@
 //! Whole runs of the binary on an unseen cap: what is printed, drawn and recorded, that
 //! the same seed gives the same bytes, and that every plugin can take its part.
 
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
+
 mod support;
 
 use seeone_runtime::record::{Channel, Recording, read};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 use support::{Call, root, seeone};
 use tempfile::TempDir;
 
@@ -233,4 +235,52 @@ fn an_evaluation_does_not_depend_on_its_jobs() {
     assert_eq!(one["attempts"][0]["seed"], 0);
     assert_eq!(one["attempts"][1]["seed"], 1);
     assert_ne!(one["attempts"][0]["object"], one["attempts"][1]["object"]);
+}
+
+#[test]
+fn a_skill_that_was_taught_is_sound() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let skill = folder.path().join("shown.toml").display().to_string();
+    let taught = seeone(["teach", &skill]);
+    assert_eq!(taught.status, Some(0), "{}", taught.stderr);
+    let checked = seeone(["check", &skill]);
+    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
+    let text = fs::read_to_string(&skill).expect("the skill");
+    assert!(text.contains("cloud = \"shown/demonstration.ply\""), "{text}");
+}
+
+#[test]
+fn what_there_is_can_be_asked() {
+    let plugins = seeone(["plugins", "list", "--json"]);
+    let rows: Value = serde_json::from_str(&plugins.stdout).expect("JSON");
+    let rows = rows.as_array().expect("an array");
+    assert_eq!(rows.len(), 8);
+    assert!(rows.iter().all(|row| !row["plugins"].as_array().expect("names").is_empty()));
+    let objects = seeone(["objects", "list", "--json"]);
+    let names: Vec<String> = serde_json::from_str(&objects.stdout).expect("names");
+    assert_eq!(names.len(), seeone(["objects", "list"]).stdout.lines().count());
+    let unseen = names.iter().find(|name| name.contains("unseen")).expect("an unseen object");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let picture = folder.path().join("made/object.png");
+    let shown = seeone(["objects", "show", unseen, "--out", &picture.display().to_string()]);
+    assert_eq!(shown.status, Some(0), "{}", shown.stderr);
+    assert!(fs::read(picture).expect("a picture").starts_with(b"\x89PNG"));
+    for words in [["--help"], ["--version"]] {
+        let call = seeone(words);
+        assert_eq!((call.status, call.stderr.as_str()), (Some(0), ""));
+    }
+}
+
+#[test]
+fn a_reader_who_leaves_is_no_fault() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_seeone"))
+        .args(["objects", "list"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }

@@ -16,16 +16,17 @@ fn general(code: &str) -> Option<&'static str> {
         ("S" | "C" | "B", number) => file(number),
         ("R", _) => Some("mend the URDF, or the robot file that names its links and joints"),
         ("P", _) => Some(
-            "make the file again: a cloud with `seeone teach`, the manifest of a library that \
-             you trust with `seeone plugins trust`",
+            "give a PLY cloud such as `seeone teach` writes, or a plugin's library with the \
+             manifest that `seeone plugins trust` writes",
         ),
         ("O", "004") => Some("make object files with `seeone objects import`"),
         ("O", _) => Some("see `seeone objects import --help`"),
         ("M", "001" | "003") => Some("see `seeone plugins list`"),
-        ("M", "002") => {
-            Some("mend what it names, or its table: [config.KIND] of the robot file, [camera] of the scene")
-        }
+        ("M", "002") => Some(
+            "mend what it names, or its table: [config.KIND] of the robot file, [camera] of the scene",
+        ),
         ("M", "005") => Some("choose another scene with --scene"),
+        ("N", "003") => Some("name another place with --out"),
         ("N" | "W", _) => Some("make weights with `seeone train`"),
         ("F", "001") => Some("skills, scenes, robots, objects, clouds and weights are checked"),
         _ => None,

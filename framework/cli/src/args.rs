@@ -1,7 +1,8 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use seeone_plugin::Kind;
+use std::num::{ParseFloatError, ParseIntError};
 use std::path::PathBuf;
 
 /// See one, do many: a robot watches one manipulation of one deformable object and does
@@ -88,6 +89,11 @@ pub struct RunArgs {
     pub out: PathBuf,
 }
 
+/// The most attempts of one evaluation: more than that is a slip of the finger.
+const MOST_ATTEMPTS: u64 = 1 << 20;
+/// So that the last attempt has a seed as well.
+const LAST_FIRST_SEED: u64 = u64::MAX - MOST_ATTEMPTS;
+
 /// `eval`.
 #[derive(Clone, Debug, Args)]
 pub struct EvalArgs {
@@ -98,10 +104,10 @@ pub struct EvalArgs {
     #[arg(long, default_value = "unseen")]
     pub objects: String,
     /// Number of attempts; attempt i uses seed i and takes the objects in turn.
-    #[arg(long, default_value_t = 40)]
+    #[arg(long, default_value_t = 40, value_parser = value_parser!(u64).range(1..=MOST_ATTEMPTS))]
     pub attempts: u64,
     /// First seed.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = value_parser!(u64).range(..=LAST_FIRST_SEED))]
     pub first_seed: u64,
     /// Attempts at the same time; the outcome does not depend on it.
     #[arg(long, default_value_t = 2)]
@@ -183,7 +189,7 @@ pub struct DataArgs {
     #[arg(long, default_value = "train")]
     pub objects: String,
     /// Drops of each object.
-    #[arg(long, default_value_t = 12)]
+    #[arg(long, default_value_t = 12, value_parser = drops)]
     pub drops: usize,
 }
 
@@ -213,7 +219,7 @@ pub struct TrainArgs {
     #[arg(long, default_value = "weights")]
     pub out: PathBuf,
     /// Share of the full number of samples, for a trial: 1 trains fully.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_parser = share)]
     pub share: f64,
 }
 
@@ -242,6 +248,19 @@ pub enum PluginsAction {
         /// The library.
         library: PathBuf,
     },
+}
+
+fn drops(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("an object that is never dropped gives no frames".into()),
+        other => other.map_err(|e: ParseIntError| e.to_string()),
+    }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|e: ParseFloatError| e.to_string())?;
+    // A comparison that NaN fails.
+    if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("not above 0 and up to 10".into()) }
 }
 
 fn method(text: &str) -> Result<(Kind, String), String> {

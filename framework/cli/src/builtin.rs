@@ -29,18 +29,16 @@ pub fn registry() -> Registry {
     all.camera.add("camera-file", |setup| Ok(Box::new(RecordedCamera::from_setup(setup)?)));
     all.perception.add("nst", |setup| Ok(Box::new(seeone_nst::build(setup)?)));
     all.encoding.add("nse", |setup| Ok(Box::new(seeone_nse::build(setup)?)));
-    all.encoding.add("nearest-feature", |setup| {
-        Ok(Box::new(seeone_nse::build_nearest_feature(setup)?))
-    });
+    all.encoding
+        .add("nearest-feature", |setup| Ok(Box::new(seeone_nse::build_nearest_feature(setup)?)));
     all.alignment.add("procrustes", |setup| Ok(Box::new(Procrustes::from_setup(setup)?)));
     all.alignment.add("ransac", |setup| Ok(Box::new(Ransac::from_setup(setup)?)));
     all.transfer.add("feature-match", |setup| Ok(Box::new(FeatureMatch::from_setup(setup)?)));
     all.transfer.add("snap", |setup| Ok(Box::new(Snap::from_setup(setup)?)));
     all.transfer.add("unchanged", |setup| Ok(Box::new(Unchanged::from_setup(setup)?)));
     all.kinematics.add("qp-ik", |setup| Ok(Box::new(QpIk::from_setup(setup)?)));
-    all.kinematics.add("damped-least-squares", |setup| {
-        Ok(Box::new(DampedLeastSquares::from_setup(setup)?))
-    });
+    all.kinematics
+        .add("damped-least-squares", |setup| Ok(Box::new(DampedLeastSquares::from_setup(setup)?)));
     all.motion.add("motion", |setup| Ok(Box::new(Planner::from_setup(setup)?)));
     all.motion.add("joint-line", |setup| Ok(Box::new(JointLine::from_setup(setup)?)));
     all.robot.add("ur5-ag95-sim", |setup| Ok(Box::new(SimulatedArm::lagging(setup)?)));

@@ -30,7 +30,9 @@ pub fn resolve(name_or_file: &str) -> Result<Object> {
     let near = fault.clone().suggest(name_or_file, names.iter().map(String::as_str));
     Err(match near.hint {
         Some(hint) if hint.starts_with("did you mean") => fault.hint(hint),
-        _ => fault.hint("see `seeone objects list`, or name a file made by `seeone objects import`"),
+        _ => {
+            fault.hint("see `seeone objects list`, or name a file made by `seeone objects import`")
+        }
     }
     .into())
 }
@@ -63,8 +65,11 @@ pub fn read(path: &Path) -> Result<Object, Diagnostic> {
     };
     let text = fs::read_to_string(path).map_err(unreadable)?;
     object_file::from_toml(&text).map_err(|fault| match &fault {
-        ObjectFileFault::Syntax(error) => Diagnostic::new("O004", error.message())
-            .at_offset(path, &text, error.span().map_or(0, |span| span.start)),
+        ObjectFileFault::Syntax(error) => Diagnostic::new("O004", error.message()).at_offset(
+            path,
+            &text,
+            error.span().map_or(0, |span| span.start),
+        ),
         other => Diagnostic::new("O004", other.to_string()).in_file(path),
     })
 }

@@ -109,7 +109,8 @@ impl Judge for CellJudge {
         let tilt_deg = up.angle(&Vector3::z()).to_degrees();
         let yaw_deg = (-forward.x).atan2(forward.y).to_degrees();
         let success = grasped && at_rest && error_d < tolerance_d;
-        let placed = format!("{error_d:.3} d from worn, tilted {tilt_deg:.0}, turned {yaw_deg:.0} degrees");
+        let placed =
+            format!("{error_d:.3} d from worn, tilted {tilt_deg:.0}, turned {yaw_deg:.0} degrees");
         let reason = match (grasped, at_rest, success) {
             (false, ..) => "never held after the lift".into(),
             (true, false, _) => format!("did not come to rest: {placed}"),
@@ -132,6 +133,8 @@ impl Judge for CellJudge {
     }
 
     fn object(&self) -> Vec<[f64; 3]> {
-        self.lock().map(|cell| cell.vertices().iter().map(|v| (*v).into()).collect()).unwrap_or_default()
+        self.lock()
+            .map(|cell| cell.vertices().iter().map(|v| (*v).into()).collect())
+            .unwrap_or_default()
     }
 }

@@ -73,6 +73,9 @@ pub struct Candidate {
     pub loss: f64,
     /// Confidence in `[0, 1]`.
     pub confidence: f64,
+    /// Whether the hand shall be laid onto the observed surface between its fingers, which
+    /// is known better than any predicted pose.
+    pub lay_on_surface: bool,
     /// How it came about, in a few words.
     pub origin: String,
 }

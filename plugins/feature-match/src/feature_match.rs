@@ -48,6 +48,7 @@ impl Transfer for FeatureMatch {
                 loss: matching.loss(&offset)?,
                 // What was seen there vouches for it, and the search for the place.
                 confidence: sheet.confidence * (0.5 + 0.5 * found.certainty),
+                lay_on_surface: true,
                 origin: format!("feature match, snapped to {} points", sheet.points),
             });
         }
@@ -66,6 +67,7 @@ impl FeatureMatch {
             pose: matching.pose(offset),
             loss,
             confidence: trust * likeness(loss),
+            lay_on_surface: false,
             origin: origin.to_owned(),
         };
         let others = found.others.iter().map(|(o, loss)| candidate(o, *loss, "another minimum"));

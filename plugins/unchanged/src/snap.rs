@@ -55,6 +55,7 @@ impl Transfer for Snap {
                     pose: raised_to(task.demonstrated, sheet.height),
                     loss: 0.0,
                     confidence: sheet.confidence,
+                    lay_on_surface: true,
                     origin: format!("snapped to the median of {} points", sheet.points),
                 },
                 unchanged,

@@ -31,6 +31,7 @@ pub(crate) fn candidate(task: &TransferTask) -> Candidate {
         pose: *task.demonstrated,
         loss: 0.0,
         confidence: task.cloud.mean_confidence(),
+        lay_on_surface: false,
         origin: "demonstrated pose unchanged".into(),
     }
 }

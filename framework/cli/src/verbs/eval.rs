@@ -125,7 +125,10 @@ fn table(report: &Report) -> Result<()> {
         console::answer(&format!("  {name:<20} {}", rate.text()))?;
     }
     if let Some(mean) = report.mean_error_m_of_worn_within_02_d {
-        console::answer(&format!("  mean error           {:.1} mm (worn within 0.2 d)", mean * 1e3))?;
+        console::answer(&format!(
+            "  mean error           {:.1} mm (worn within 0.2 d)",
+            mean * 1e3
+        ))?;
     }
     for (stage, count) in &report.failures {
         console::answer(&format!("  failed at {stage:<10} {count}"))?;

@@ -30,7 +30,12 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
         args.seed
     ));
     let cell = workcell.drop(&object, args.seed)?;
-    told(&StageEvent { name: "drop".into(), ok: true, seconds: clock.elapsed().as_secs_f64(), reason: None });
+    told(&StageEvent {
+        name: "drop".into(),
+        ok: true,
+        seconds: clock.elapsed().as_secs_f64(),
+        reason: None,
+    });
 
     let stem = format!("{}-{}-seed{}", workcell.skill.name, object.name(), args.seed);
     let attempt = Attempt {
@@ -38,10 +43,8 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
         dry_run: args.dry_run,
         recording: Some(args.out.join(format!("{stem}.mcap"))),
     };
-    let hooks = Hooks {
-        clock: Box::new(move || clock.elapsed().as_secs_f64()),
-        progress: Box::new(told),
-    };
+    let hooks =
+        Hooks { clock: Box::new(move || clock.elapsed().as_secs_f64()), progress: Box::new(told) };
     let picture = RunPicture::before(&workcell, &cell)?;
     let finished = workcell.attempt(&cell, &object, attempt, hooks)?;
     let path = args.out.join(format!("{stem}.png"));

@@ -2,14 +2,14 @@
 
 use crate::args::{Network, TrainArgs};
 use crate::{Ending, console};
-use anyhow::Result;
+use anyhow::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::Point3;
 use seeone_core::Cloud;
 use seeone_core::frames::Frame;
 use seeone_nn::train::Ending as Trained;
 use seeone_nse::Progress as NseProgress;
-use seeone_nst::{NstPerception, Report, Stage};
+use seeone_nst::{NstPerception, NstTrainError, Report, Stage};
 use seeone_plugin::Observation;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -32,7 +32,11 @@ pub fn run(args: &TrainArgs) -> Result<Ending> {
     let ordered = Arc::clone(&stop);
     ctrlc::set_handler(move || ordered.store(true, Ordering::Relaxed))?;
     let go_on = || {
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     };
     let (nst, nse) = (args.out.join("nst/weights"), args.out.join("nse/weights"));
     let mut whole = true;
@@ -49,7 +53,12 @@ pub fn run(args: &TrainArgs) -> Result<Ending> {
 }
 
 fn command(args: &TrainArgs, network: &str) -> String {
-    format!("seeone train {network} --data {} --seed {} --share {}", args.data.display(), args.seed, args.share)
+    format!(
+        "seeone train {network} --data {} --seed {} --share {}",
+        args.data.display(),
+        args.seed,
+        args.share
+    )
 }
 
 fn samples(full: f64, args: &TrainArgs) -> u64 {
@@ -89,13 +98,22 @@ fn train_nst(args: &TrainArgs, out: &Path, go_on: &dyn Fn() -> ControlFlow<()>) 
         bar.set_position(told.progress.done);
         bar.set_message(format!("nst {:?} {}", told.stage, loss(told.progress.loss)));
         go_on()
-    })?;
+    })
+    .map_err(told)?;
     bar.finish_and_clear();
     let Report::Finished(figures) = report else { return Ok(false) };
     for (set, figures) in &figures {
         console::tell(&format!("nst on {set}: {}", serde_json::to_string(figures)?));
     }
     Ok(true)
+}
+
+/// A wrong file is the fault of what was given, not of the training.
+fn told(error: NstTrainError) -> Error {
+    match error {
+        NstTrainError::File(fault) => fault.into(),
+        other => other.into(),
+    }
 }
 
 fn train_nse(

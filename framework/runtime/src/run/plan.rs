@@ -42,7 +42,8 @@ pub(super) fn plan(
     }
 }
 
-/// The cheapest turn of the first grasp that has any way.
+/// The first grasp that has any way, turned as little as will do, by the cheapest program:
+/// the less the hand is turned, the nearer it takes the object to how it was shown.
 fn planned(
     plugins: &mut Plugins,
     assignment: &Assignment,
@@ -56,6 +57,10 @@ fn planned(
     for (index, grasp) in grasps.iter().enumerate() {
         let mut best: Option<Planned> = None;
         for turn in &turns {
+            let shown = |best: &Planned| best.turn.about_closing_deg.abs();
+            if best.as_ref().is_some_and(|best| turn.about_closing_deg.abs() > shown(best)) {
+                break;
+            }
             let key_poses = key_poses(assignment, transferred, grasp, turn);
             let task = MotionTask { start: &start, key_poses: &key_poses, obstacles: &obstacles };
             let outcome = plugins

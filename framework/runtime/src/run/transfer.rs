@@ -7,7 +7,7 @@ use super::perceive::Perceived;
 use super::schedule::leave;
 use super::step::{Failed, Step};
 use crate::plugins::Plugins;
-use crate::transfer::{Held, Placement, gripper_points};
+use crate::transfer::{Held, Placement, laid_on_surface, gripper_points};
 use bevy_ecs::prelude::*;
 use seeone_core::Pose;
 use seeone_plugin::{Candidate, PluginError, TransferTask};
@@ -73,11 +73,15 @@ fn transferred(
     })?;
     let mut grasps = Vec::with_capacity(candidates.len());
     for candidate in candidates {
-        let (tool, fit) = here.push_forward(&candidate.pose)?;
-        if !finite(&candidate.pose) || !finite(&tool) {
+        let (predicted, fit) = here.push_forward(&candidate.pose)?;
+        if !finite(&candidate.pose) || !finite(&predicted) {
             return Err(PluginError::Internal("a candidate is not finite".into()));
         }
-        let held = Held { tool: candidate.pose, scale: here.scale() };
+        let points = &perceived.instance.points;
+        let laid = candidate.lay_on_surface.then(|| laid_on_surface(&predicted, points)).flatten();
+        let tool = laid.unwrap_or(predicted);
+        // What is in the hand is what the hand takes, laid on the surface or not.
+        let held = Held { tool: fit.canonical(&tool), scale: here.scale() };
         let (patch, residual_m) = (fit.patch, fit.residual_m);
         grasps.push(Grasp { candidate, tool, held, patch, residual_m });
     }

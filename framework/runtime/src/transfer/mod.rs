@@ -7,11 +7,13 @@
 mod carry;
 mod gripper_points;
 mod placement;
+mod surface;
 mod turn;
 
 pub use carry::{ANCHOR, Held, carried, relation};
 pub use gripper_points::gripper_points;
 pub use placement::{LocalFit, Placement};
+pub use surface::laid_on_surface;
 pub use turn::{Turn, turns};
 
 #[cfg(test)]

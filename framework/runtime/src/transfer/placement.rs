@@ -35,6 +35,13 @@ pub struct LocalFit {
     pub residual_m: f64,
 }
 
+impl LocalFit {
+    /// The canonical pose of a tool pose in `world` near the fit's place: T -> H.
+    pub fn canonical(&self, tool: &Pose) -> Pose {
+        mapped(&self.transform.inverse(), tool)
+    }
+}
+
 /// An observed object's canonical state, placed in the world.
 pub struct Placement<'a> {
     alignment: &'a dyn Alignment,

@@ -1,0 +1,42 @@
+//! Scene files.
+
+use crate::support::{Bench, seeone};
+use crate::{SCENE, SKILL, each_is_refused, refused};
+
+#[test]
+fn a_wrong_scene_is_told() {
+    each_is_refused(
+        SCENE,
+        &[
+            ("syntax", "name", "name = \"head", "C002", ""),
+            ("unknown key", "friction", "fiction = 0.6", "C012", "did you mean \"friction\"?"),
+            ("flat head", "semi_axes_m", "semi_axes_m = [0.0, 0.1, 0.1]", "C020", "semi_axes_m"),
+            (
+                "no pixels",
+                "intrinsics",
+                "intrinsics = { width = 0, height = 480, fx = 384.0, fy = 384.0, cx = 1.0, cy = 1.0 }",
+                "C020",
+                "0 x 480",
+            ),
+            ("infinite", "crop_height_m", "crop_height_m = inf", "C003", "inf"),
+            ("negative drop", "height_m = 0.12", "height_m = -1.0", "C020", "height_m"),
+        ],
+    );
+    let bench = Bench::new();
+    let skill = bench.arg(SKILL);
+    let missing =
+        seeone(["run", &skill, "--scene", "scenes/none.toml", "--out", &bench.arg("out")]);
+    refused("missing", &bench, &missing, "C001", &["scenes/none.toml"]);
+    let empty = bench.text(SCENE).replace("object = \"unseen\"", "object = \"hat\"");
+    bench.write(SCENE, empty);
+    refused("unknown object", &bench, &bench.run(&[]), "O001", &["\"hat\""]);
+}
+
+#[test]
+fn an_unclosed_bracket_is_not_told_for_every_line_after_it() {
+    let bench = Bench::new();
+    bench.set_line(SCENE, "name", "name = [");
+    let call = bench.run(&[]);
+    refused("unclosed", &bench, &call, "C002", &["head.toml:", "more; `seeone check` tells all"]);
+    assert_eq!(call.stderr.matches("error[").count(), 5, "{}", call.stderr);
+}
