@@ -20,6 +20,9 @@ const EYE: Vector3<f64> = Vector3::new(0.38, 0.42, 0.34);
 const SUBJECT: Vector3<f64> = Vector3::new(0.0, 0.02, 0.05);
 const LENS: Intrinsics =
     Intrinsics { width: 960, height: 720, fx: 1100.0, fy: 1100.0, cx: 479.5, cy: 359.5 };
+/// A worn hem sits above the widest line of the head: the generated caps that fit the
+/// simulated head of 0.556 m have hems of 0.545 m.
+const HEM_TO_HEAD: f64 = 0.98;
 const GROUND: [f64; 3] = [0.80, 0.77, 0.71];
 
 /// Lists every generated object.
@@ -50,7 +53,7 @@ pub fn import(args: &ImportArgs) -> Result<Ending> {
     let options = Options {
         up: axis("--up", &args.up)?,
         front: args.front.as_deref().map(|text| axis("--front", text)).transpose()?,
-        circumference_m: args.head_circumference,
+        circumference_m: args.head_circumference * HEM_TO_HEAD,
     };
     let name = args.mesh.file_stem().and_then(|stem| stem.to_str()).unwrap_or("imported");
     let object =

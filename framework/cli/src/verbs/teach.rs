@@ -28,13 +28,13 @@ const PITCH_DEG: f64 = 2.0;
 const GRIP_N: f64 = 140.0;
 /// The cap comes onto the head nose up by this, degrees, and levels at the very end.
 const NOSE_UP_DEG: f64 = 10.0;
-const LET_GO_NOSE_UP_DEG: f64 = 7.0;
+const LET_GO_NOSE_UP_DEG: f64 = 4.0;
 /// Heights over the worn pose at which it arrives, begins to level, and is let go, metres.
 /// Crowns differ in height by 12 mm (standard deviation): gravity mends a release that is
 /// too high, while one that is too low presses the cap out of the hand.
 const ABOVE_M: f64 = 0.15;
 const LEVEL_M: f64 = 0.035;
-const LET_GO_M: f64 = 0.020;
+const LET_GO_M: f64 = 0.018;
 /// A cloud of more points is thinned to about so many.
 const CLOUD_POINTS: usize = 4096;
 /// A demonstration that ends farther from the worn state teaches nothing, share of d.

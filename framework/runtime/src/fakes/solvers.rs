@@ -57,7 +57,13 @@ impl Transfer for FakeTransfer {
     fn transfer(&self, task: &TransferTask) -> Result<Vec<Candidate>, PluginError> {
         broken(&self.0, "transfer")?;
         let origin = "as demonstrated".into();
-        Ok(vec![Candidate { pose: *task.demonstrated, loss: 0.0, confidence: 1.0, lay_on_surface: false, origin }])
+        Ok(vec![Candidate {
+            pose: *task.demonstrated,
+            loss: 0.0,
+            confidence: 1.0,
+            lay_on_surface: false,
+            origin,
+        }])
     }
 }
 

@@ -7,7 +7,9 @@ use super::perceive::Perceived;
 use super::schedule::leave;
 use super::step::{Failed, Step};
 use crate::plugins::Plugins;
-use crate::transfer::{Held, Placement, laid_on_surface, gripper_points};
+use crate::transfer::{
+    Held, Placement, brought_to_edge, edge_before_palm, gripper_points, laid_on_surface,
+};
 use bevy_ecs::prelude::*;
 use seeone_core::Pose;
 use seeone_plugin::{Candidate, PluginError, TransferTask};
@@ -71,6 +73,8 @@ fn transferred(
         instance_scale: here.scale(),
         gripper_points: &gripper_points(),
     })?;
+    let taken = &assignment.skill.stages[0].gripper_pose;
+    let shown_edge = edge_before_palm(taken, &perceived.demonstration.points);
     let mut grasps = Vec::with_capacity(candidates.len());
     for candidate in candidates {
         let (predicted, fit) = here.push_forward(&candidate.pose)?;
@@ -79,6 +83,10 @@ fn transferred(
         }
         let points = &perceived.instance.points;
         let laid = candidate.lay_on_surface.then(|| laid_on_surface(&predicted, points)).flatten();
+        let laid = laid.map(|tool| match shown_edge {
+            Some(edge) => brought_to_edge(&tool, points, edge),
+            None => tool,
+        });
         let tool = laid.unwrap_or(predicted);
         // What is in the hand is what the hand takes, laid on the surface or not.
         let held = Held { tool: fit.canonical(&tool), scale: here.scale() };

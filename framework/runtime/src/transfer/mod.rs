@@ -13,7 +13,7 @@ mod turn;
 pub use carry::{ANCHOR, Held, carried, relation};
 pub use gripper_points::gripper_points;
 pub use placement::{LocalFit, Placement};
-pub use surface::laid_on_surface;
+pub use surface::{brought_to_edge, edge_before_palm, laid_on_surface};
 pub use turn::{Turn, turns};
 
 #[cfg(test)]

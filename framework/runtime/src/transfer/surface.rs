@@ -43,6 +43,42 @@ pub fn laid_on_surface(tool: &Pose, points: &[Point3<f64>]) -> Option<Pose> {
     Some(Pose::from_parts(place, turn * tool.rotation))
 }
 
+/// Half width across the hand, along its closing axis, and reach along its approach
+/// (before and behind the tool's origin) of the strip in which an edge is looked for, metres.
+const STRIP_M: [f64; 2] = [0.012, 0.008];
+const REACH_M: [f64; 2] = [-0.045, 0.020];
+/// The least points of a strip that show an edge.
+const STRIP_POINTS: usize = 15;
+/// Share of the strip's points that may lie beyond its edge: noise.
+const BEYOND_EDGE: f64 = 0.03;
+/// An edge farther than this from where it was shown is taken for another, metres.
+const MOST_INSET_M: f64 = 0.025;
+
+/// Where the sheet between the fingers ends towards the palm: its edge along the tool's z,
+/// metres, negative behind the tool's origin. `None` where too little was seen.
+pub fn edge_before_palm(tool: &Pose, points: &[Point3<f64>]) -> Option<f64> {
+    let mut depths: Vec<f64> = points
+        .iter()
+        .map(|p| tool.inverse_transform_point(p))
+        .filter(|q| q.x.abs() < STRIP_M[0] && q.y.abs() < STRIP_M[1])
+        .filter(|q| (REACH_M[0]..REACH_M[1]).contains(&q.z))
+        .map(|q| q.z)
+        .collect();
+    if depths.len() < STRIP_POINTS {
+        return None;
+    }
+    depths.sort_by(f64::total_cmp);
+    Some(depths[(BEYOND_EDGE * depths.len() as f64) as usize])
+}
+
+/// `tool` moved along its approach until the sheet's edge lies where the demonstration had
+/// it, `shown_edge_m` along the tool's z; as it is where no edge was seen near there.
+pub fn brought_to_edge(tool: &Pose, points: &[Point3<f64>], shown_edge_m: f64) -> Pose {
+    let shift = edge_before_palm(tool, points).map_or(0.0, |edge| edge - shown_edge_m);
+    let shift = if shift.abs() <= MOST_INSET_M { shift } else { 0.0 };
+    tool * Translation3::new(0.0, 0.0, shift)
+}
+
 /// The plane nearest to some points.
 struct Plane {
     centre: Point3<f64>,
@@ -106,6 +142,17 @@ mod tests {
         let normal = slope * Vector3::z();
         assert!((laid.rotation * Vector3::y() - normal).norm() < 1e-9);
         assert!((laid.translation.vector - centre).dot(&normal).abs() < 1e-9);
+    }
+
+    #[test]
+    fn takes_the_sheet_as_far_in_as_was_shown() {
+        let sheet = patch(Vector3::new(0.4, -0.2, 0.05), UnitQuaternion::identity());
+        // The patch ends 12 mm behind the tool's origin; shown was 5 mm.
+        let edge = edge_before_palm(&tool(), &sheet).expect("seen");
+        assert!((edge + 0.012).abs() < 1e-9, "{edge}");
+        let brought = brought_to_edge(&tool(), &sheet, -0.005);
+        assert!((edge_before_palm(&brought, &sheet).expect("seen") + 0.005).abs() < 1e-9);
+        assert_eq!(brought_to_edge(&tool(), &sheet[..9], -0.005), tool());
     }
 
     #[test]
