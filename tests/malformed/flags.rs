@@ -14,7 +14,7 @@ fn a_wrong_flag_is_told() {
     refused("object file", &bench, &file, "O004", &["none.toml"]);
     for (words, says) in [
         (vec!["--method", "nonsense=x"], "perception"),
-        (vec!["--method", "transfer"], "KIND=PLUGIN"),
+        (vec!["--method", "transfer"], "KIND=NAME"),
         (vec!["--seed", "one"], "--seed"),
         (vec!["--nonsense"], "--nonsense"),
     ] {

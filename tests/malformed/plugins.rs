@@ -8,11 +8,11 @@ fn an_untrusted_or_damaged_library_is_refused() {
     let bench = Bench::new();
     let library = bench.arg("libmine.so");
     let plugin = |bench: &Bench| bench.run(&["--plugin", &library]);
-    refused("missing", &bench, &plugin(&bench), "P001", &["libmine.so"]);
+    refused("missing", &bench, &plugin(&bench), "L001", &["libmine.so"]);
     bench.write("libmine.so", [0x7f, b'E', b'L', b'F', 0, 0]);
-    refused("no manifest", &bench, &plugin(&bench), "P001", &["plugins trust"]);
+    refused("no manifest", &bench, &plugin(&bench), "L001", &["plugins trust"]);
     let trusted = seeone(["plugins", "trust", &library]);
-    refused("no library to trust", &bench, &trusted, "P005", &["libmine.so"]);
+    refused("no library to trust", &bench, &trusted, "L005", &["libmine.so"]);
     let manifest = |size: usize, hash: &str| {
         format!(
             "schema = 1\nname = \"mine\"\nkind = \"alignment\"\nversion = \"1\"\nabi = [1, 0]\n\
@@ -20,11 +20,11 @@ fn an_untrusted_or_damaged_library_is_refused() {
         )
     };
     bench.write("libmine.so.toml", manifest(600, &"0".repeat(64)));
-    refused("truncated", &bench, &plugin(&bench), "P003", &["600"]);
+    refused("truncated", &bench, &plugin(&bench), "L003", &["600"]);
     bench.write("libmine.so.toml", manifest(6, &"0".repeat(64)));
-    refused("changed", &bench, &plugin(&bench), "P004", &["plugins trust"]);
+    refused("changed", &bench, &plugin(&bench), "L004", &["plugins trust"]);
     bench.write("libmine.so.toml", "schema = ");
-    refused("damaged manifest", &bench, &plugin(&bench), "P002", &["libmine.so.toml:1:"]);
+    refused("damaged manifest", &bench, &plugin(&bench), "L002", &["libmine.so.toml:1:"]);
 }
 
 #[test]

@@ -15,10 +15,8 @@ fn general(code: &str) -> Option<&'static str> {
     match (family, number) {
         ("S" | "C" | "B", number) => file(number),
         ("R", _) => Some("mend the URDF, or the robot file that names its links and joints"),
-        ("P", _) => Some(
-            "give a PLY cloud such as `seeone teach` writes, or a plugin's library with the \
-             manifest that `seeone plugins trust` writes",
-        ),
+        ("P", _) => Some("give a PLY cloud such as `seeone teach` writes"),
+        ("L", _) => Some("give a plugin's library with the manifest of `seeone plugins trust`"),
         ("O", "004") => Some("make object files with `seeone objects import`"),
         ("O", _) => Some("see `seeone objects import --help`"),
         ("M", "001" | "003") => Some("see `seeone plugins list`"),

@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use seeone_plugin::Kind;
+use seeone_runtime::methods::parse_override;
 use std::num::{ParseFloatError, ParseIntError};
 use std::path::PathBuf;
 
@@ -59,7 +60,7 @@ pub struct CellArgs {
     #[arg(long, default_value = "scenes/head.toml")]
     pub scene: PathBuf,
     /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
-    #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = method)]
+    #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
     /// Load a trusted dynamic library and let it serve its kind; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
@@ -261,13 +262,4 @@ fn share(text: &str) -> Result<f64, String> {
     let share: f64 = text.parse().map_err(|e: ParseFloatError| e.to_string())?;
     // A comparison that NaN fails.
     if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("not above 0 and up to 10".into()) }
-}
-
-fn method(text: &str) -> Result<(Kind, String), String> {
-    let (kind, name) = text.split_once('=').ok_or("write KIND=PLUGIN, e.g. transfer=unchanged")?;
-    let kinds: Vec<&str> = Kind::ALL.iter().map(|k| k.name()).collect();
-    let kind = kind
-        .parse()
-        .map_err(|()| format!("unknown kind \"{kind}\"; known: {}", kinds.join(", ")))?;
-    Ok((kind, name.to_owned()))
 }

@@ -113,7 +113,8 @@ pub fn write_shard(folder: &Path, number: usize, frames: &[Frame]) -> Result<(),
     let counts: Vec<u8> =
         frames.iter().flat_map(|f| (f.points.len() as u32).to_le_bytes()).collect();
     let rows = points.len() / 12;
-    let view = |dtype, shape, data| TensorView::new(dtype, shape, data).map_err(|e| fault(&path, e));
+    let view =
+        |dtype, shape, data| TensorView::new(dtype, shape, data).map_err(|e| fault(&path, e));
     let tensors = BTreeMap::from([
         ("points", view(Dtype::F32, vec![rows, 3], &points)?),
         ("nocs", view(Dtype::F32, vec![rows, 3], &nocs)?),
@@ -127,7 +128,11 @@ pub fn write_shard(folder: &Path, number: usize, frames: &[Frame]) -> Result<(),
 ///
 /// # Errors
 /// A located diagnostic when the file is missing, damaged or does not match the index.
-pub fn read_shard(folder: &Path, number: usize, infos: &[FrameInfo]) -> Result<Vec<Frame>, Diagnostic> {
+pub fn read_shard(
+    folder: &Path,
+    number: usize,
+    infos: &[FrameInfo],
+) -> Result<Vec<Frame>, Diagnostic> {
     let path = folder.join(shard_name(number));
     let bytes = fs::read(&path).map_err(|e| fault(&path, e))?;
     let tensors = SafeTensors::deserialize(&bytes).map_err(|e| fault(&path, e))?;
@@ -205,7 +210,9 @@ pub fn read_all(folder: &Path) -> Result<(Index, Vec<Frame>), Diagnostic> {
         frames.extend(read_shard(folder, number, infos)?);
     }
     match frames.iter().find(|f| f.info.object >= index.objects.len()) {
-        Some(_) => Err(fault(&folder.join("index.json"), "a frame names an object that is not there")),
+        Some(_) => {
+            Err(fault(&folder.join("index.json"), "a frame names an object that is not there"))
+        }
         None => Ok((index, frames)),
     }
 }
@@ -225,7 +232,11 @@ mod tests {
             camera_xyz_m: [0.0, -0.5, 0.5],
         };
         let frames = vec![
-            Frame { info: info.clone(), points: vec![[1.0, 2.0, 3.0]], nocs: vec![[0.1, 0.2, 0.3]] },
+            Frame {
+                info: info.clone(),
+                points: vec![[1.0, 2.0, 3.0]],
+                nocs: vec![[0.1, 0.2, 0.3]],
+            },
             Frame { info: info.clone(), points: vec![[0.5; 3]; 4], nocs: vec![[0.25; 3]; 4] },
         ];
         write_shard(folder.path(), 0, &frames).expect("written");

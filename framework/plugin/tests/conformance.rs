@@ -81,7 +81,13 @@ impl Transfer for Says {
 }
 
 fn kept(task: &TransferTask, confidence: f64) -> Vec<Candidate> {
-    vec![Candidate { pose: *task.demonstrated, loss: 0.0, confidence, lay_on_surface: false, origin: "kept".into() }]
+    vec![Candidate {
+        pose: *task.demonstrated,
+        loss: 0.0,
+        confidence,
+        lay_on_surface: false,
+        origin: "kept".into(),
+    }]
 }
 
 #[test]

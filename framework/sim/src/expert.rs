@@ -57,7 +57,8 @@ fn plane_normal(points: &[Point3<f64>]) -> Option<Vector3<f64>> {
     if points.len() < 3 {
         return None;
     }
-    let mean: Vector3<f64> = points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / points.len() as f64;
+    let mean: Vector3<f64> =
+        points.iter().map(|p| p.coords).sum::<Vector3<f64>>() / points.len() as f64;
     let scatter: Matrix3<f64> =
         points.iter().map(|p| (p.coords - mean) * (p.coords - mean).transpose()).sum();
     let eigen = scatter.symmetric_eigen();

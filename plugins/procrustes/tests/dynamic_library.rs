@@ -118,7 +118,7 @@ fn the_manifest_says_what_is_trusted() {
 fn an_untrusted_library_is_refused() {
     let (_folder, path) = copied();
     let told = refusal(&path);
-    assert!(told.starts_with("error[P001]") && told.contains("plugins trust"), "{told}");
+    assert!(told.starts_with("error[L001]") && told.contains("plugins trust"), "{told}");
 }
 
 #[test]
@@ -128,10 +128,10 @@ fn a_truncated_or_grown_library_is_refused() {
     for kept in [0, 64, whole.len() / 2, whole.len() - 1] {
         replace(&path, &whole[..kept]);
         let told = refusal(&path);
-        assert!(told.starts_with("error[P003]") && told.contains(&kept.to_string()), "{told}");
+        assert!(told.starts_with("error[L003]") && told.contains(&kept.to_string()), "{told}");
     }
     replace(&path, &[whole.as_slice(), b"!"].concat());
-    assert!(refusal(&path).starts_with("error[P003]"));
+    assert!(refusal(&path).starts_with("error[L003]"));
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_flipped_bit_is_refused_wherever_it_is() {
         damaged[at] ^= 0x10;
         replace(&path, &damaged);
         let told = refusal(&path);
-        assert!(told.starts_with("error[P004]") && told.contains("BLAKE3"), "{told}");
+        assert!(told.starts_with("error[L004]") && told.contains("BLAKE3"), "{told}");
     }
 }
 
@@ -162,8 +162,8 @@ fn a_damaged_manifest_is_refused_with_its_place() {
         assert!(text.contains(from), "{text}");
         fs::write(&manifest, text.replace(from, to)).expect("written");
         let refused = refusal(&path);
-        assert!(refused.starts_with("error[P002]") && refused.contains(told), "{refused}");
+        assert!(refused.starts_with("error[L002]") && refused.contains(told), "{refused}");
     }
     fs::write(&manifest, text.replace("\"procrustes\"", "\"another\"")).expect("written");
-    assert!(refusal(&path).starts_with("error[P011]"));
+    assert!(refusal(&path).starts_with("error[L011]"));
 }

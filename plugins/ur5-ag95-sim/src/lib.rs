@@ -65,9 +65,9 @@ impl SimulatedArm {
     /// [`PluginError::Configuration`] for any key, or a cell that is not simulated.
     pub fn ideal(setup: &Setup) -> Result<Self, PluginError> {
         match setup.config.keys().next() {
-            Some(key) => {
-                Err(PluginError::Configuration(format!("ideal-sim takes no table, found \"{key}\"")))
-            }
+            Some(key) => Err(PluginError::Configuration(format!(
+                "ideal-sim takes no table, found \"{key}\""
+            ))),
             None => Self::with_servo(setup, Servo::new(0.0)?),
         }
     }
@@ -104,11 +104,15 @@ impl SimulatedArm {
                 let low = joint.lower() - LIMIT_TOLERANCE_RAD;
                 let high = joint.upper() + LIMIT_TOLERANCE_RAD;
                 if *value < low || *value > high {
-                    return refuse(format!("sample {index} takes {} to {value:.3} rad", joint.name()));
+                    return refuse(format!(
+                        "sample {index} takes {} to {value:.3} rad",
+                        joint.name()
+                    ));
                 }
             }
         }
-        let jump = (DVector::from_column_slice(first) - DVector::from_column_slice(&self.joints)).amax();
+        let jump =
+            (DVector::from_column_slice(first) - DVector::from_column_slice(&self.joints)).amax();
         if jump > START_TOLERANCE_RAD {
             return refuse(format!("the trajectory starts {jump:.3} rad from where the arm is"));
         }

@@ -6,7 +6,7 @@ use crate::builtin;
 use crate::faults::Faults;
 use crate::simulated::SimulatedCell;
 use crate::{Ending, console, objects};
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use seeone_core::formats::ply::{self, Encoding};
 use seeone_core::frames::write_whole;
@@ -81,7 +81,8 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let program: Program = match motion.plan(&robot, kinematics.as_ref(), &task)? {
         MotionOutcome::Planned { program, .. } => program,
         MotionOutcome::Infeasible { stage, reason } => {
-            bail!("the expert cannot show {stage}: {reason}; try another --seed")
+            console::tell(&format!("the expert cannot show {stage}: {reason}; try another --seed"));
+            return Ok(Ending::Failure);
         }
     };
     let mut judge = cell.judge();
@@ -97,7 +98,8 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let verdict = judge.judge(measure, grasped)?;
     console::tell(&format!("shown with {}: {}", object.name(), verdict.reason));
     if !verdict.success {
-        bail!("the demonstration failed; nothing was written; try another --seed");
+        console::tell("the demonstration failed; nothing was written; try another --seed");
+        return Ok(Ending::Failure);
     }
     let skill = Skill {
         name: name.to_owned(),

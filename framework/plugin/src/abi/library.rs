@@ -27,7 +27,7 @@ impl Library {
     /// Checks the library against its manifest and then loads it.
     ///
     /// # Errors
-    /// A diagnostic `P001` to `P011` that names the library: no or damaged manifest, other
+    /// A diagnostic `L001` to `L011` that names the library: no or damaged manifest, other
     /// size, other hash, not loadable, without an entry, or with a table that this host
     /// cannot serve or that contradicts the manifest.
     pub fn open(path: &Path) -> Result<Self, Diagnostic> {
@@ -48,7 +48,7 @@ impl Library {
                 manifest.version,
                 manifest.kind
             );
-            return Err(Diagnostic::new("P011", cause).in_file(path));
+            return Err(Diagnostic::new("L011", cause).in_file(path));
         }
         Ok(Self { manifest, table: loaded.table })
     }
@@ -78,7 +78,7 @@ pub(super) struct Loaded {
 
 /// The bytes of a library.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
-    let refuse = |cause: String| Diagnostic::new("P005", cause).in_file(path);
+    let refuse = |cause: String| Diagnostic::new("L005", cause).in_file(path);
     let metadata = fs::metadata(path).map_err(|e| refuse(e.to_string()))?;
     if !metadata.is_file() || metadata.len() > LARGEST_LIBRARY {
         return Err(refuse("not a file of at most 1 GiB".into()));
@@ -90,16 +90,16 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Diagnostic> {
 pub(super) fn load(path: &Path) -> Result<Loaded, Diagnostic> {
     let refuse = |code, cause: String| Diagnostic::new(code, cause).in_file(path);
     // A name without a folder would be looked up on the system's search path instead.
-    let whole = path.canonicalize().map_err(|e| refuse("P005", e.to_string()))?;
+    let whole = path.canonicalize().map_err(|e| refuse("L005", e.to_string()))?;
     // SAFETY: initialisers run; the user trusts these bytes, checked by the caller.
     let library = unsafe { libloading::Library::new(&whole) };
-    let library = library.map_err(|e| refuse("P005", causes(&e)))?;
+    let library = library.map_err(|e| refuse("L005", causes(&e)))?;
     // Never unloaded: threads, thread-locals and function pointers of it may live on.
     let library = Box::leak(Box::new(library));
     // SAFETY: a symbol of this name has this type by the ABI's definition.
     let entry = unsafe { library.get::<Entry>(ENTRY) };
     let entry = entry.map_err(|e| {
-        refuse("P006", causes(&e)).hint("a plugin exports the function `seeone_plugin`")
+        refuse("L006", causes(&e)).hint("a plugin exports the function `seeone_plugin`")
     })?;
     // SAFETY: the entry takes nothing and returns a table or null.
     let header = unsafe { entry() };
@@ -119,11 +119,11 @@ fn causes(error: &dyn std::error::Error) -> String {
 /// Null, or valid, unchanging and for good as far as the magic and the `size` in it say.
 unsafe fn table(header: *const Header) -> Result<Loaded, Diagnostic> {
     if header.is_null() || !header.is_aligned() {
-        return Err(Diagnostic::new("P007", "the library returned no table"));
+        return Err(Diagnostic::new("L007", "the library returned no table"));
     }
     // SAFETY: every table begins with the magic.
     if unsafe { (*header).magic } != MAGIC {
-        return Err(Diagnostic::new("P007", "the table does not begin as a plugin's does"));
+        return Err(Diagnostic::new("L007", "the table does not begin as a plugin's does"));
     }
     // SAFETY: after the magic comes the rest of the header, in every version.
     let header: &'static Header = unsafe { &*header };
@@ -131,7 +131,7 @@ unsafe fn table(header: *const Header) -> Result<Loaded, Diagnostic> {
     // SAFETY: the header names a kind whose table this is, and at least its size.
     let table = unsafe { &*std::ptr::from_ref(header).cast::<AlignmentTable>() };
     if table.create.is_none() || table.align.is_none() || table.release.is_none() {
-        return Err(Diagnostic::new("P009", "a function of the table is missing"));
+        return Err(Diagnostic::new("L009", "a function of the table is missing"));
     }
     // SAFETY: spans of the table are as valid as the table.
     let (name, version) = unsafe { (text(header.name)?, text(header.version)?) };
@@ -150,17 +150,17 @@ fn check(header: &Header) -> Result<(), Diagnostic> {
     if major != ABI_MAJOR {
         let cause =
             format!("the library has ABI {major}.{minor}, this host {ABI_MAJOR}.{ABI_MINOR}");
-        return Err(Diagnostic::new("P008", cause)
+        return Err(Diagnostic::new("L008", cause)
             .hint("build it against the seeone-plugin of this version"));
     }
     if Some(header.kind) != kind_code(Kind::Alignment) {
         let cause = format!("the library has a plugin of the unknown kind {}", header.kind);
-        return Err(Diagnostic::new("P010", cause).hint("libraries serve the kind alignment"));
+        return Err(Diagnostic::new("L010", cause).hint("libraries serve the kind alignment"));
     }
     let needed = size_of::<AlignmentTable>() as u64;
     if header.size < needed {
         let cause = format!("the table has {} bytes, its kind needs {needed}", header.size);
-        return Err(Diagnostic::new("P009", cause));
+        return Err(Diagnostic::new("L009", cause));
     }
     Ok(())
 }
@@ -170,7 +170,7 @@ fn check(header: &Header) -> Result<(), Diagnostic> {
 /// # Safety
 /// As [`Span::slice`].
 unsafe fn text(span: Span<u8>) -> Result<String, Diagnostic> {
-    let told = || Diagnostic::new("P009", "a name in the table is empty, too long or not UTF-8");
+    let told = || Diagnostic::new("L009", "a name in the table is empty, too long or not UTF-8");
     if !(1..=LONGEST_TEXT).contains(&span.len) {
         return Err(told());
     }

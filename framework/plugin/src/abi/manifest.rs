@@ -52,12 +52,12 @@ impl Manifest {
     /// Reads the manifest beside `library`.
     ///
     /// # Errors
-    /// `P001` when there is none, `P002` when it is damaged.
+    /// `L001` when there is none, `L002` when it is damaged.
     pub fn read_for(library: &Path) -> Result<Self, Diagnostic> {
         let path = Self::path_for(library);
-        let damaged = |cause: String| Diagnostic::new("P002", cause).in_file(&path);
+        let damaged = |cause: String| Diagnostic::new("L002", cause).in_file(&path);
         let size = fs::metadata(&path).map_err(|e| {
-            Diagnostic::new("P001", format!("the library has no readable manifest: {e}"))
+            Diagnostic::new("L001", format!("the library has no readable manifest: {e}"))
                 .in_file(&path)
                 .hint(format!("if you trust it: seeone plugins trust {}", library.display()))
         })?;
@@ -67,7 +67,7 @@ impl Manifest {
         let text = fs::read_to_string(&path).map_err(|e| damaged(e.to_string()))?;
         let fields: Fields = toml::from_str(&text).map_err(|e| {
             let start = e.span().map_or(0, |span| span.start);
-            Diagnostic::new("P002", e.message()).at_offset(&path, &text, start)
+            Diagnostic::new("L002", e.message()).at_offset(&path, &text, start)
         })?;
         fields.resolve().map_err(damaged)
     }
@@ -93,14 +93,14 @@ impl Manifest {
         let written = toml::to_string(&manifest.fields())
             .map_err(|e| e.to_string())
             .and_then(|text| write_whole(&path, text.as_bytes()).map_err(|e| e.to_string()));
-        written.map_err(|cause| Diagnostic::new("P002", cause).in_file(&path))?;
+        written.map_err(|cause| Diagnostic::new("L002", cause).in_file(&path))?;
         Ok(manifest)
     }
 
     /// Compares a library's bytes with what is trusted.
     ///
     /// # Errors
-    /// `P003` for another size, `P004` for another hash; both with both values.
+    /// `L003` for another size, `L004` for another hash; both with both values.
     pub fn verify(&self, library: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
         let refuse = |code, what: &str, has: String, trusted: String| {
             let cause = format!("the library has {what} {has}; its manifest trusts {trusted}");
@@ -111,11 +111,11 @@ impl Manifest {
         };
         let size = bytes.len() as u64;
         if size != self.size_bytes {
-            return refuse("P003", "size", size.to_string(), self.size_bytes.to_string());
+            return refuse("L003", "size", size.to_string(), self.size_bytes.to_string());
         }
         let hash = blake3::hash(bytes);
         if hash != self.blake3 {
-            return refuse("P004", "BLAKE3", hash.to_string(), self.blake3.to_string());
+            return refuse("L004", "BLAKE3", hash.to_string(), self.blake3.to_string());
         }
         Ok(())
     }

@@ -96,18 +96,18 @@ fn a_newer_table_with_more_at_its_end_is_served() {
 
 #[test]
 fn tables_of_others_are_refused() {
-    assert!(refusal(|t| t.header.magic ^= 1).starts_with("error[P007]"));
+    assert!(refusal(|t| t.header.magic ^= 1).starts_with("error[L007]"));
     assert!(refusal(|t| t.header.abi_major += 1).contains("has ABI 2.0, this host 1.0"));
-    assert!(refusal(|t| t.header.size -= 8).starts_with("error[P009]"));
+    assert!(refusal(|t| t.header.size -= 8).starts_with("error[L009]"));
     assert!(refusal(|t| t.header.kind = 99).contains("unknown kind 99"));
     assert!(refusal(|t| t.align = None).contains("a function of the table is missing"));
     assert!(refusal(|t| t.release = None).contains("a function of the table is missing"));
-    assert!(refusal(|t| t.header.name = Span::of(b"")).starts_with("error[P009]"));
-    assert!(refusal(|t| t.header.name = Span::of(b"\xff\xfe")).starts_with("error[P009]"));
-    assert!(refusal(|t| t.header.version = Span::of(&[b'1'; 300])).starts_with("error[P009]"));
+    assert!(refusal(|t| t.header.name = Span::of(b"")).starts_with("error[L009]"));
+    assert!(refusal(|t| t.header.name = Span::of(b"\xff\xfe")).starts_with("error[L009]"));
+    assert!(refusal(|t| t.header.version = Span::of(&[b'1'; 300])).starts_with("error[L009]"));
     // SAFETY: null is allowed.
     let none = unsafe { table(std::ptr::null()) };
-    assert!(none.is_err_and(|told| told.code == "P007"));
+    assert!(none.is_err_and(|told| told.code == "L007"));
 }
 
 #[test]
@@ -141,11 +141,11 @@ fn what_is_no_library_is_told_with_the_loader_s_own_words() {
     let path = folder.path().join("libtext.so");
     fs::write(&path, "not a library").expect("written");
     let told = Manifest::write_for(&path).expect_err("no library").to_string();
-    assert!(told.starts_with("error[P005]") && told.contains("libtext.so"), "{told}");
+    assert!(told.starts_with("error[L005]") && told.contains("libtext.so"), "{told}");
     assert!(
         told.contains("ELF") || told.contains("header") || told.contains("too short"),
         "{told}"
     );
     let told = Library::open(&path).expect_err("no manifest").to_string();
-    assert!(told.starts_with("error[P001]") && told.contains("plugins trust"), "{told}");
+    assert!(told.starts_with("error[L001]") && told.contains("plugins trust"), "{told}");
 }
