@@ -11,7 +11,7 @@ use seeone_sim::cell::Cell;
 use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
 use seeone_sim::rigid_fit::rigid_fit;
-use seeone_sim::surroundings::{Frictions, Head, Surroundings};
+use seeone_sim::surroundings::{Frictions, HEAD_SEMI_AXES_M, Head, Surroundings};
 use seeone_sim::world::Settings;
 use seeone_sim::worn::{Worn, worn};
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -35,6 +35,7 @@ impl SimulatedCell {
     /// # Errors
     /// When the object cannot be worn at all, or the simulation diverged.
     pub fn drop(scene: &Scene, object: Object, seed: u64) -> Result<Self> {
+        check(scene)?;
         let settings = Settings::default();
         let worn = worn(&object, &settings).map_err(|fault| {
             Diagnostic::new("O006", format!("object \"{}\": {fault}", object.name()))
@@ -71,6 +72,24 @@ impl SimulatedCell {
     pub fn worn_vertices(&self) -> Vec<Point3<f64>> {
         self.worn.vertices.iter().map(|v| self.head.pose * v).collect()
     }
+}
+
+/// What the simulated world has one form of.
+fn check(scene: &Scene) -> Result<(), Diagnostic> {
+    let head = scene.head.semi_axes_m;
+    let same = head.iter().zip(HEAD_SEMI_AXES_M).all(|(a, b)| (a - b).abs() < 1e-9);
+    if !same {
+        let cause = format!(
+            "the simulated head has semi-axes {HEAD_SEMI_AXES_M:?} m; the scene asks for {:?}",
+            head.as_slice()
+        );
+        return Err(Diagnostic::new("C030", cause).hint("give the head those semi_axes_m"));
+    }
+    if scene.table.height_m != 0.0 {
+        let cause = format!("the simulated table's top is z = 0, not {} m", scene.table.height_m);
+        return Err(Diagnostic::new("C030", cause).hint("move the robot's base instead"));
+    }
+    Ok(())
 }
 
 /// Judges by the world's own vertices (method: Eq. 11 and 12).

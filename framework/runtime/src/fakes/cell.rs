@@ -258,7 +258,6 @@ fn scene(head: Pose) -> Scene {
             centre: Point2::new(0.45, -0.15),
             half_extents_m: Vector2::new(0.25, 0.25),
             crop_height_m: 0.3,
-            height_m: 0.12,
         },
     }
 }

@@ -37,8 +37,6 @@ pub struct Drop {
     pub half_extents_m: Vector2<f64>,
     /// Height of that box above the table, metres.
     pub crop_height_m: f64,
-    /// Height above the table at which an object is let go, metres.
-    pub height_m: f64,
 }
 
 /// A scene.

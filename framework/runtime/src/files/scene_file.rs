@@ -56,7 +56,6 @@ struct RawDrop {
     centre_xy_m: Spanned<[f64; 2]>,
     half_extents_m: Spanned<[f64; 2]>,
     crop_height_m: Spanned<f64>,
-    height_m: Spanned<f64>,
 }
 
 /// How far the robot may sink into the mat when the file does not say it, metres.
@@ -140,6 +139,5 @@ fn drop_zone(resolver: &mut Resolver, raw: &RawDrop) -> Drop {
         centre: Point2::from(centre),
         half_extents_m: Vector2::from(half),
         crop_height_m: resolver.number("crop_height_m", &raw.crop_height_m, 0.01..=FARTHEST_M),
-        height_m: resolver.number("height_m", &raw.height_m, 0.0..=1.0),
     }
 }

@@ -58,7 +58,6 @@ intrinsics = { width = 640, height = 480, fx = 384.0, fy = 384.0, cx = 319.5, cy
 centre_xy_m = [0.45, -0.15]
 half_extents_m = [0.25, 0.25]
 crop_height_m = 0.3
-height_m = 0.12
 "#;
 
 /// A folder with a skill's cloud in it.

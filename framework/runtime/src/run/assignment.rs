@@ -109,7 +109,6 @@ impl Assignment {
                 "head_friction": head.friction,
                 "camera": pose(camera),
                 "drop_centre_xy_m": drop.centre.coords.as_slice(),
-                "drop_height_m": drop.height_m,
             },
             "seed": self.seed,
             "methods": self.methods.iter().map(|(kind, name)| (kind.name(), name)).collect::<BTreeMap<_, _>>(),
