@@ -192,6 +192,7 @@ fn every_other_plugin_reaches_an_honest_outcome() {
         ("motion", "joint-line"),
         ("robot", "ideal-sim"),
         ("encoding", "nearest-feature"),
+        ("perception", "nst-one-pass"),
     ] {
         let attempt = Attempt::new(&["--method", &format!("{kind}={name}")]);
         assert_eq!(attempt.outcome["methods"][kind], name);

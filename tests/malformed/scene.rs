@@ -19,7 +19,13 @@ fn a_wrong_scene_is_told() {
                 "0 x 480",
             ),
             ("infinite", "crop_height_m", "crop_height_m = inf", "C003", "inf"),
-            ("negative crop", "crop_height_m = 0.30", "crop_height_m = -1.0", "C020", "crop_height_m"),
+            (
+                "negative crop",
+                "crop_height_m = 0.30",
+                "crop_height_m = -1.0",
+                "C020",
+                "crop_height_m",
+            ),
         ],
     );
     let bench = Bench::new();

@@ -28,6 +28,7 @@ pub fn registry() -> Registry {
     all.camera.add("camera-sim", |setup| Ok(Box::new(SimulatedCamera::from_setup(setup)?)));
     all.camera.add("camera-file", |setup| Ok(Box::new(RecordedCamera::from_setup(setup)?)));
     all.perception.add("nst", |setup| Ok(Box::new(seeone_nst::build(setup)?)));
+    all.perception.add("nst-one-pass", |setup| Ok(Box::new(seeone_nst::build_one_pass(setup)?)));
     all.encoding.add("nse", |setup| Ok(Box::new(seeone_nse::build(setup)?)));
     all.encoding
         .add("nearest-feature", |setup| Ok(Box::new(seeone_nse::build_nearest_feature(setup)?)));

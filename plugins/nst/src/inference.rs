@@ -59,8 +59,20 @@ pub enum NstError {
     Network(#[from] candle_core::Error),
 }
 
+/// How often the refiner is asked about one cloud.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// Three passes, each from the pose that the one before gave; the last one averaged over
+    /// draws of points and their mirror images.
+    #[default]
+    Full,
+    /// Once, from the coarse fit: one forward pass, as the paper reads its network.
+    OnePass,
+}
+
 /// The two trained networks.
 pub struct Nst {
+    effort: Effort,
     coarse: Network,
     refiner: Network,
     card: Card,
@@ -82,7 +94,12 @@ impl Nst {
         };
         let coarse = network(Sizes::COARSE, COARSE_FILE)?;
         let refiner = network(Sizes::REFINER, REFINER_FILE)?;
-        Ok(Self { coarse, refiner, card })
+        Ok(Self { effort: Effort::Full, coarse, refiner, card })
+    }
+
+    /// The same networks, asked as often as `effort` says.
+    pub fn with_effort(self, effort: Effort) -> Self {
+        Self { effort, ..self }
     }
 
     /// What the weights are.
@@ -130,13 +147,17 @@ impl Nst {
         rows.sort_unstable();
         let asked: Vec<Vector3<f64>> = rows.iter().map(|row| points[*row]).collect();
         let mut pose = *start;
-        for _ in 1..PASSES {
+        let full = self.effort == Effort::Full;
+        for _ in 1..if full { PASSES } else { 1 } {
             let (readout, _) = ask(&self.refiner, &pose, &seen, &seen, false)?;
             pose = fit(&seen, &readout).ok_or(NstError::NoPose)?;
         }
         let (first, features) = ask(&self.refiner, &pose, &seen, &asked, false)?;
-        let mut readouts = vec![first, ask(&self.refiner, &pose, &seen, &asked, true)?.0];
-        for _ in 1..LAST_DRAWS {
+        let mut readouts = vec![first];
+        if full {
+            readouts.push(ask(&self.refiner, &pose, &seen, &asked, true)?.0);
+        }
+        for _ in 1..if full { LAST_DRAWS } else { 1 } {
             let other = take_shuffled(&mut rows.clone(), Sizes::REFINER.points, &mut rng);
             let seen: Vec<Vector3<f64>> = other.iter().map(|row| points[*row]).collect();
             for mirrored in [false, true] {

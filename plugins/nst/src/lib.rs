@@ -23,6 +23,6 @@ pub mod training;
 pub mod units;
 
 pub use evaluate::{Figures, evaluate};
-pub use inference::{Nst, NstError, Perceived};
-pub use plugin::{NstPerception, build};
+pub use inference::{Effort, Nst, NstError, Perceived};
+pub use plugin::{NstPerception, build, build_one_pass};
 pub use training::{NstTrainError, Report, Stage, StageProgress, TrainPlan, train};

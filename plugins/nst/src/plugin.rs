@@ -1,6 +1,6 @@
 //! NST as a perception plugin.
 
-use crate::inference::{Nst, NstError};
+use crate::inference::{Effort, Nst, NstError};
 use crate::network::FEATURES;
 use seeone_core::Diagnostic;
 use seeone_plugin::{CanonicalCloud, Observation, Perception, PluginError, Setup};
@@ -35,6 +35,16 @@ pub fn build(setup: &Setup<'_>) -> Result<NstPerception, PluginError> {
     let config: NstConfig = setup.configuration()?;
     NstPerception::load(&setup.root.join(config.weights))
         .map_err(|e| PluginError::Resource(e.to_string()))
+}
+
+/// Builds the plugin `nst-one-pass` from its table: the same networks, the refiner asked
+/// once. What the further passes and their average are worth is seen against it.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_one_pass(setup: &Setup<'_>) -> Result<NstPerception, PluginError> {
+    let NstPerception { nst } = build(setup)?;
+    Ok(NstPerception { nst: nst.with_effort(Effort::OnePass) })
 }
 
 impl NstPerception {
