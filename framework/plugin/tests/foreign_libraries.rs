@@ -39,7 +39,7 @@ fn refusal(source: &str) -> String {
 #[test]
 fn a_library_without_the_entry_is_told() {
     let told = refusal("");
-    assert!(told.starts_with("error[P006]") && told.contains("seeone_plugin"), "{told}");
+    assert!(told.starts_with("error[L006]") && told.contains("seeone_plugin"), "{told}");
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn a_table_of_something_else_is_told() {
         "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin() -> *const u64 {
             static TABLE: [u64; 16] = [7; 16]; TABLE.as_ptr() }",
     );
-    assert!(told.starts_with("error[P007]") && told.contains("does not begin"), "{told}");
+    assert!(told.starts_with("error[L007]") && told.contains("does not begin"), "{told}");
 }
 
 #[test]
@@ -57,5 +57,5 @@ fn no_table_is_told() {
         "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin() -> *const u64 {
             std::ptr::null() }",
     );
-    assert!(told.starts_with("error[P007]") && told.contains("no table"), "{told}");
+    assert!(told.starts_with("error[L007]") && told.contains("no table"), "{told}");
 }
