@@ -3,7 +3,7 @@
 use super::*;
 use crate::fakes::{Behaviour, FakeCell};
 use crate::record::{Channel, read};
-use crate::transfer::{ANCHOR, Turn};
+use crate::transfer::ANCHOR;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use bevy_ecs::world::World;
 use nalgebra::{Point3, Vector3};
