@@ -62,7 +62,7 @@ pub fn write(
     write_whole(path, &file).map_err(|e| CheckpointError::File(path.into(), e))
 }
 
-/// Reads what [`write`] wrote for a network of `count` parameters.
+/// Reads what [`write()`] wrote for a network of `count` parameters.
 ///
 /// # Errors
 /// [`CheckpointError`].

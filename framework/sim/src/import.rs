@@ -87,7 +87,7 @@ pub enum ImportFault {
     /// The file cannot be read.
     #[error("{0} cannot be read: {1}")]
     Unreadable(PathBuf, std::io::Error),
-    /// The file is larger than [`LARGEST_FILE`].
+    /// The file is larger than 64 MiB.
     #[error("the file has {0} bytes; at most 64 MiB are read")]
     TooLarge(u64),
     /// The file is no OBJ.
