@@ -62,6 +62,9 @@ pub struct CellArgs {
     /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
+    /// How often the robot may look and reach for the object if its hand closes on nothing.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
+    pub tries: u64,
     /// Load a trusted dynamic library and let it serve its kind; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,

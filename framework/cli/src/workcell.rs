@@ -30,6 +30,7 @@ pub struct Workcell {
     pub robot: RobotModel,
     /// Which plugin does what.
     pub methods: Methods,
+    tries: usize,
     config: BTreeMap<Kind, toml::Table>,
     provenance: BTreeMap<String, String>,
 }
@@ -70,6 +71,7 @@ impl Workcell {
             robot_name: robot_file.name,
             robot,
             methods,
+            tries: args.tries as usize,
             config,
             provenance,
         })
@@ -102,6 +104,7 @@ impl Workcell {
         assignment.object = object.name().to_owned();
         assignment.robot_name.clone_from(&self.robot_name);
         assignment.seed = attempt.seed;
+        assignment.tries = self.tries;
         assignment.dry_run = attempt.dry_run;
         assignment.recording = attempt.recording;
         assignment.provenance.clone_from(&self.provenance);

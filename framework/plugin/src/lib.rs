@@ -31,6 +31,6 @@ pub use motion::{
     Action, JointTrajectory, KeyPose, Motion, MotionOutcome, MotionTask, Program, Step,
 };
 pub use perception::{CanonicalCloud, Perception};
-pub use robot::{GripReport, GripperCommand, Robot, RobotSample, RobotState};
+pub use robot::{Felt, GripperCommand, Robot, RobotSample, RobotState};
 pub use setup::{Setup, WorldHandle};
 pub use transfer::{Candidate, Transfer, TransferTask};

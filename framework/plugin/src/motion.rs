@@ -16,6 +16,9 @@ pub struct KeyPose {
     pub approach_m: f64,
     /// Opening of the fingers while approaching, metres.
     pub opening_m: f64,
+    /// The straight line to the pose ends where the load at the wrist has changed by this
+    /// since the line began, newtons; the pose is then as far as it may go.
+    pub until_contact_n: Option<f64>,
     /// What the gripper does there.
     pub gripper: Option<GripperCommand>,
     /// Straight retreat against the tool's z after it, metres; zero for none.
@@ -53,6 +56,8 @@ pub enum Obstacle {
 pub struct MotionTask<'a> {
     /// Where the joints are, radians.
     pub start: &'a [f64],
+    /// Whether something is in the hand.
+    pub holding: bool,
     /// The key poses, in order.
     pub key_poses: &'a [KeyPose],
     /// What must not be touched.
@@ -90,6 +95,14 @@ impl JointTrajectory {
 pub enum Action {
     /// Follow a joint trajectory.
     Move(JointTrajectory),
+    /// Follow a joint trajectory until the load at the wrist has changed by `force_n` since
+    /// it began, and stop there.
+    MoveUntilContact {
+        /// How far it goes at most.
+        trajectory: JointTrajectory,
+        /// Newtons.
+        force_n: f64,
+    },
     /// Open or close the gripper.
     Grip(GripperCommand),
 }
@@ -118,7 +131,9 @@ impl Program {
         self.steps
             .iter()
             .map(|step| match &step.action {
-                Action::Move(trajectory) => trajectory.duration_s(),
+                Action::Move(trajectory) | Action::MoveUntilContact { trajectory, .. } => {
+                    trajectory.duration_s()
+                }
                 Action::Grip(_) => 0.0,
             })
             .sum()

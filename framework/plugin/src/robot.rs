@@ -35,13 +35,15 @@ pub struct RobotSample {
     pub state: RobotState,
 }
 
-/// What the gripper felt after a command; on an AG-95 its own grip state.
+/// What the robot felt in an action: the gripper's own grip state, and the load at the wrist.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GripReport {
+pub struct Felt {
     /// Distance between the pads, metres.
     pub opening_m: f64,
     /// Whether something is between the pads.
     pub holding: bool,
+    /// Whether contact ended a move before its last sample.
+    pub contact: bool,
 }
 
 /// A robot arm with a gripper.
@@ -52,8 +54,8 @@ pub trait Robot: Send {
     /// When the robot does not answer.
     fn state(&mut self) -> Result<RobotState, PluginError>;
 
-    /// Carries out one action to its end and says what the gripper then feels;
-    /// `watch` sees the robot about thirty times a second on the way.
+    /// Carries out one action, to its end or to the contact it waits for, and says what was
+    /// felt; `watch` sees the robot about thirty times a second on the way.
     ///
     /// # Errors
     /// When the first sample is not where the robot is, a sample breaks a limit, a number
@@ -62,5 +64,5 @@ pub trait Robot: Send {
         &mut self,
         action: &Action,
         watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<GripReport, PluginError>;
+    ) -> Result<Felt, PluginError>;
 }

@@ -8,7 +8,7 @@ use crate::object::Object;
 use crate::scenery;
 use crate::surroundings::Surroundings;
 use crate::world::{Settings, World};
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use rand::Rng;
 use seeone_core::{DepthImage, Intrinsics, Pose, TriangleMesh};
 
@@ -133,6 +133,12 @@ impl Cell {
     pub fn pads_feel_load(&self) -> bool {
         let state = self.world.hand_state();
         state.closed && state.held_points > 0
+    }
+
+    /// What the hand gives to what it holds, newtons in `world`: what a wrist that feels
+    /// loads would tell. Zero when it holds nothing.
+    pub fn load_n(&self) -> Vector3<f64> {
+        self.world.hand_state().load_n
     }
 
     /// Whether the lifted object is truly held: the hand stands still for a second, and

@@ -96,6 +96,12 @@ impl Grasp {
         Some(Self { force_n, pins, anchors, points: held.len(), load: Momentum::zero() })
     }
 
+    /// What the hand gives the shell, N in `world`, evened out over the time in which the
+    /// pads give way.
+    pub fn load_n(&self) -> Vector3<f64> {
+        self.load.linear
+    }
+
     /// How many points are held.
     pub fn points(&self) -> usize {
         self.points

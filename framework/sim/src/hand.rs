@@ -1,5 +1,6 @@
 //! A parallel-jaw gripper as the shell meets it: two pads that move as told.
 
+use nalgebra::Vector3;
 use seeone_core::Pose;
 
 /// Width of a pad along x of the tool frame, metres (AG-95).
@@ -41,6 +42,9 @@ pub struct HandState {
     pub slip_m: f64,
     /// Whether the fingers have stopped closing.
     pub closed: bool,
+    /// What the hand gives a held shell, N in `world`, evened out over the time in which
+    /// rubber pads give way.
+    pub load_n: Vector3<f64>,
 }
 
 /// What the fingers are doing.

@@ -56,6 +56,9 @@ fn a_firm_grip_carries_the_cap_and_opening_drops_it() {
     let state = world.hand_state();
     assert!(state.held_points >= 4 && state.slip_m < 0.002 && state.normal_force_n == 20.0);
     assert!(world.rms_speed() < 0.05, "{}", world.rms_speed());
+    let weight_n = world.mass() * 9.81;
+    let off_n = state.load_n - Vector3::z() * weight_n;
+    assert!(off_n.norm() < 0.1 * weight_n, "the hand bears {} of {weight_n} N", state.load_n.z);
     let held = world.centre_of_mass().z;
     world.open(0.06);
     assert_eq!(world.hand_state().held_points, 0);

@@ -18,6 +18,9 @@ use seeone_plugin::{GripperCommand, IkQuery, IkStatus, KeyPose, Kinematics, Moti
 /// that cannot be found costs more than everything else.
 const TRANSIT_SEARCHES: usize = 2;
 
+/// A posture this near to where the arm is needs no transit, radians.
+const HERE_RAD: f64 = 1e-4;
+
 /// A task with all that is needed to plan it.
 pub(crate) struct Plan<'a> {
     pub(crate) config: &'a MotionConfig,
@@ -79,6 +82,9 @@ impl<'a> Plan<'a> {
         for posture in self.postures(group, at)? {
             let entered = walker.walk(&posture).and_then(|walk| {
                 searches += 1;
+                if distance(at, &walk.entry) < HERE_RAD {
+                    return Ok((vec![at.to_vec()], walk));
+                }
                 self.transit(group, at, &walk.entry)
                     .map(|path| (path, walk))
                     .map_err(|failure| failure.at(group.stage(), "transit"))
@@ -144,13 +150,14 @@ impl<'a> Plan<'a> {
 
     /// The key poses in runs that straight lines join.
     fn groups(&self) -> Vec<Group<'a>> {
-        // How far the fingers are open at first is not known.
-        let mut hand = Hand { opening_m: f64::NAN, holding: false };
+        // How far empty fingers are open at first is not known; what is held is thin.
+        let opening_m = if self.task.holding { 0.0 } else { f64::NAN };
+        let mut hand = Hand { opening_m, holding: self.task.holding };
         let mut groups: Vec<Group> = Vec::new();
         for keys in self.task.key_poses.chunk_by(Walker::joins) {
             let ready = hand.approaching(&keys[0]);
             let open = GripperCommand::Open { opening_m: ready.opening_m };
-            let prepare = (ready != hand).then_some(open);
+            let prepare = (!ready.holding && ready != hand).then_some(open);
             groups.push(Group { keys, hand: ready, prepare });
             hand = keys.iter().fold(ready, |hand, key| hand.after(key.gripper));
         }

@@ -110,6 +110,9 @@ fn check(robot: &RobotModel, task: &MotionTask) -> Result<(), PluginError> {
         if !lengths.iter().all(|v| v.is_finite() && *v >= 0.0) {
             return told(format!("stage \"{}\": a length is negative or not finite", key.stage));
         }
+        if key.until_contact_n.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
+            return told(format!("stage \"{}\": the force of contact is no force", key.stage));
+        }
         let commanded = match key.gripper {
             Some(GripperCommand::Open { opening_m }) => opening_m,
             Some(GripperCommand::Close { .. }) | None => 0.0,

@@ -26,6 +26,9 @@ impl<'a> Script<'a> {
 
     /// A move in free space along straight lines in joint space.
     pub(crate) fn transit(&mut self, stage: &str, path: &[Vec<f64>], holding: bool) {
+        if path.len() < 2 {
+            return;
+        }
         let config = self.timing.config;
         let speed = if holding { config.held_speed_m_s } else { config.transit_speed_m_s };
         self.push(stage, "transit", Action::Move(self.timing.corners(path, speed)));
@@ -38,6 +41,11 @@ impl<'a> Script<'a> {
                 Deed::Grip(command) => Action::Grip(command),
                 Deed::Line { path, slow_start, slow_end } => {
                     Action::Move(self.line(&path, slow_start, slow_end))
+                }
+                Deed::Feel { path, force_n } => {
+                    let speed = self.timing.config.feel_speed_m_s;
+                    let trajectory = self.timing.line(&[(&path, speed)]);
+                    Action::MoveUntilContact { trajectory, force_n }
                 }
             };
             self.push(leg.stage, leg.purpose, action);

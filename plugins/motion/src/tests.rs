@@ -27,7 +27,7 @@ fn planner() -> Planner {
 
 fn plan(motion: &dyn Motion, keys: &[KeyPose], obstacles: &[Obstacle]) -> MotionOutcome {
     let kinematics = QpIk::new(IkConfig::default(), 1).unwrap();
-    let task = MotionTask { start: &HOME, key_poses: keys, obstacles };
+    let task = MotionTask { start: &HOME, holding: false, key_poses: keys, obstacles };
     motion.plan(&ur5(), &kinematics, &task).unwrap()
 }
 
@@ -54,6 +54,7 @@ fn key(stage: &str, pose: Pose) -> KeyPose {
         pose,
         approach_m: 0.0,
         opening_m: 0.03,
+        until_contact_n: None,
         gripper: None,
         retreat_m: 0.0,
         lift_m: 0.0,
@@ -96,10 +97,47 @@ fn pick_and_place() -> Vec<KeyPose> {
 
 fn moves(program: &Program) -> Vec<&JointTrajectory> {
     let moves = program.steps.iter().filter_map(|step| match &step.action {
-        Action::Move(trajectory) => Some(trajectory),
+        Action::Move(trajectory) | Action::MoveUntilContact { trajectory, .. } => Some(trajectory),
         Action::Grip(_) => None,
     });
     moves.collect()
+}
+
+#[test]
+fn a_line_that_ends_with_contact_is_slow_all_the_way() {
+    let mut keys = pick_and_place();
+    keys[2].until_contact_n = Some(20.0);
+    let program = planned(plan(&planner(), &keys, &[table()]));
+    let felt: Vec<_> = program
+        .steps
+        .iter()
+        .filter_map(|step| match &step.action {
+            Action::MoveUntilContact { trajectory, force_n } => Some((step, trajectory, *force_n)),
+            _ => None,
+        })
+        .collect();
+    let [(step, trajectory, force_n)] = felt[..] else { panic!("one such line") };
+    assert_eq!((step.stage.as_str(), step.purpose, force_n), ("place", "approach", 20.0));
+    let robot = ur5();
+    let tips = trajectory.positions.iter().map(|q| robot.tool_pose(q).translation.vector);
+    let tips: Vec<Vector3<f64>> = tips.collect();
+    let fastest = tips.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+    assert!(fastest / trajectory.period_s <= MotionConfig::default().feel_speed_m_s * 1.001);
+}
+
+#[test]
+fn an_arm_that_stands_at_the_pose_with_something_in_the_hand_just_goes_on() {
+    let pose = downward(0.35, 0.40, 0.30);
+    let there = planned(plan(&planner(), &[key("hold", pose)], &[]));
+    let start = moves(&there).last().unwrap().positions.last().unwrap().clone();
+    let keys = [KeyPose { lift_m: 0.1, ..key("hold", pose) }, key("on", downward(0.3, 0.3, 0.5))];
+    let task = MotionTask { start: &start, holding: true, key_poses: &keys, obstacles: &[] };
+    let kinematics = QpIk::new(IkConfig::default(), 1).unwrap();
+    let program = planned(planner().plan(&ur5(), &kinematics, &task).unwrap());
+    let steps: Vec<(&str, &str)> =
+        program.steps.iter().map(|step| (step.stage.as_str(), step.purpose)).collect();
+    assert_eq!(steps, [("hold", "lift"), ("on", "transit")], "no fingers move");
+    assert_eq!(moves(&program)[0].positions[0], start);
 }
 
 #[test]
@@ -125,7 +163,7 @@ fn a_program_has_its_steps_in_order_and_grips_at_the_key_poses() {
     let mut grips = Vec::new();
     for step in &program.steps {
         match &step.action {
-            Action::Move(trajectory) => {
+            Action::Move(trajectory) | Action::MoveUntilContact { trajectory, .. } => {
                 assert_eq!(trajectory.positions[0], at, "{} {}", step.stage, step.purpose);
                 at.clone_from(trajectory.positions.last().unwrap());
             }
@@ -184,7 +222,8 @@ fn plans_around_a_head_where_the_straight_move_refuses() {
     let start = [-0.8, HOME[1], HOME[2], HOME[3], HOME[4], HOME[5]];
     let keys = [key("left", downward(0.45, 0.35, 0.3))];
     let obstacles = [table(), head(0.5, 0.0, 0.3)];
-    let task = MotionTask { start: &start, key_poses: &keys, obstacles: &obstacles };
+    let task =
+        MotionTask { start: &start, holding: false, key_poses: &keys, obstacles: &obstacles };
     let kinematics = QpIk::new(IkConfig::default(), 1).unwrap();
     let ask =
         |motion: &dyn Motion, task: &MotionTask| motion.plan(&ur5(), &kinematics, task).unwrap();
@@ -250,7 +289,11 @@ fn what_is_held_keeps_away_from_obstacles() {
 fn what_is_no_task_is_refused() {
     let kinematics = QpIk::new(IkConfig::default(), 1).unwrap();
     let ask = |start: &[f64], keys: &[KeyPose]| {
-        planner().plan(&ur5(), &kinematics, &MotionTask { start, key_poses: keys, obstacles: &[] })
+        planner().plan(
+            &ur5(),
+            &kinematics,
+            &MotionTask { start, holding: false, key_poses: keys, obstacles: &[] },
+        )
     };
     let good = key("pick", downward(0.45, 0.0, 0.3));
     let nan = key("pick", downward(f64::NAN, 0.0, 0.3));

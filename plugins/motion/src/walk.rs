@@ -23,6 +23,8 @@ pub(crate) struct Leg<'a> {
 pub(crate) enum Deed {
     /// Run through these closely spaced postures; slowly near the first, the last, or both.
     Line { path: Vec<Vec<f64>>, slow_start: bool, slow_end: bool },
+    /// Run through these until contact with this force, newtons.
+    Feel { path: Vec<Vec<f64>>, force_n: f64 },
     /// Move the fingers.
     Grip(GripperCommand),
 }
@@ -81,18 +83,17 @@ impl<'a> Walker<'a> {
             if index > 0 {
                 let path = self.line(key, "approach", &walk.exit, &key.pose, &hand)?;
                 walk.limit_cost += limit_cost(self.robot, &path[path.len() - 1]);
-                walk.push(key, "approach", path, false, true);
+                walk.approach(key, path);
             } else if key.approach_m > 0.0 {
                 // Followed backwards, from where the branch is known.
                 let back = key.pose * Translation3::new(0.0, 0.0, -key.approach_m);
                 let mut path = self.line(key, "approach", first, &back, &hand)?;
                 path.reverse();
                 walk.entry.clone_from(&path[0]);
-                walk.push(key, "approach", path, false, true);
+                walk.approach(key, path);
             }
             if let Some(command) = key.gripper {
-                let deed = Deed::Grip(command);
-                walk.legs.push(Leg { stage: &key.stage, purpose: "grip", deed });
+                walk.push(key, "grip", Deed::Grip(command));
                 hand = hand.after(key.gripper);
             }
             let lifted = Translation3::from(Vector3::z() * key.lift_m) * key.pose;
@@ -101,7 +102,7 @@ impl<'a> Walker<'a> {
             for (purpose, length, target) in departures {
                 if length > 0.0 {
                     let path = self.line(key, purpose, &walk.exit, &target, &hand)?;
-                    walk.push(key, purpose, path, true, false);
+                    walk.push(key, purpose, Deed::Line { path, slow_start: true, slow_end: false });
                 }
             }
         }
@@ -136,16 +137,18 @@ impl<'a> Walker<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn push(
-        &mut self,
-        key: &'a KeyPose,
-        purpose: &'static str,
-        path: Vec<Vec<f64>>,
-        slow_start: bool,
-        slow_end: bool,
-    ) {
-        self.exit.clone_from(&path[path.len() - 1]);
-        let deed = Deed::Line { path, slow_start, slow_end };
+    fn approach(&mut self, key: &'a KeyPose, path: Vec<Vec<f64>>) {
+        let deed = match key.until_contact_n {
+            Some(force_n) => Deed::Feel { path, force_n },
+            None => Deed::Line { path, slow_start: false, slow_end: true },
+        };
+        self.push(key, "approach", deed);
+    }
+
+    fn push(&mut self, key: &'a KeyPose, purpose: &'static str, deed: Deed) {
+        if let Deed::Line { path, .. } | Deed::Feel { path, .. } = &deed {
+            self.exit.clone_from(&path[path.len() - 1]);
+        }
         self.legs.push(Leg { stage: &key.stage, purpose, deed });
     }
 }

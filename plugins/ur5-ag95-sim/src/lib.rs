@@ -9,8 +9,8 @@ mod servo;
 use nalgebra::DVector;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
-    Action, GripReport, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample,
-    RobotState, Setup,
+    Action, Felt, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample, RobotState,
+    Setup,
 };
 use seeone_sim::cell::{Cell, FRAME_S};
 use serde::Deserialize;
@@ -119,23 +119,40 @@ impl SimulatedArm {
         Ok(())
     }
 
+    /// Follows a trajectory to its end or, with a force of contact in newtons, until the
+    /// load of what is held has changed by so much; says whether it has.
     fn follow(
         &mut self,
         trajectory: &JointTrajectory,
+        contact_n: Option<f64>,
         watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<(), PluginError> {
+    ) -> Result<bool, PluginError> {
         self.check(trajectory)?;
+        if let Some(force_n) = contact_n
+            && !(force_n.is_finite() && force_n > 0.0)
+        {
+            return Err(PluginError::Input(format!("contact with {force_n} N is none")));
+        }
+        let before = self.lock()?.load_n();
         let frames = (trajectory.duration_s() / FRAME_S).ceil() as usize + self.servo.tail_frames();
         for frame in 1..=frames {
             let Some(command) = trajectory.at(frame as f64 * FRAME_S) else { break };
             self.servo.track(&mut self.joints, &command);
             let pose = self.model.tool_pose(&self.joints);
-            self.lock()?.advance(&pose).map_err(PluginError::Internal)?;
-            if frame % FRAMES_PER_SAMPLE == 0 || frame == frames {
+            let change = {
+                let mut cell = self.lock()?;
+                cell.advance(&pose).map_err(PluginError::Internal)?;
+                (cell.load_n() - before).norm()
+            };
+            let contact = contact_n.is_some_and(|force_n| change > force_n);
+            if frame % FRAMES_PER_SAMPLE == 0 || frame == frames || contact {
                 watch(&self.sample()?);
             }
+            if contact {
+                return Ok(true);
+            }
         }
-        Ok(())
+        Ok(false)
     }
 
     fn grip(
@@ -185,12 +202,19 @@ impl Robot for SimulatedArm {
         &mut self,
         action: &Action,
         watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<GripReport, PluginError> {
-        match action {
-            Action::Move(trajectory) => self.follow(trajectory, watch)?,
-            Action::Grip(command) => self.grip(*command, watch)?,
-        }
+    ) -> Result<Felt, PluginError> {
+        let contact = match action {
+            Action::Move(trajectory) => self.follow(trajectory, None, watch)?,
+            Action::MoveUntilContact { trajectory, force_n } => {
+                self.follow(trajectory, Some(*force_n), watch)?
+            }
+            Action::Grip(command) => {
+                self.grip(*command, watch)?;
+                false
+            }
+        };
         let cell = self.lock()?;
-        Ok(GripReport { opening_m: cell.opening_m(), holding: cell.pads_feel_load() })
+        let (opening_m, holding) = (cell.opening_m(), cell.pads_feel_load());
+        Ok(Felt { opening_m, holding, contact })
     }
 }

@@ -19,7 +19,9 @@ struct Report {
     objects: String,
     methods: BTreeMap<&'static str, String>,
     first_seed: u64,
+    tries: u64,
     grasped: Rate,
+    grasped_at_first_try: Rate,
     worn_within_005_d: Rate,
     worn_within_01_d: Rate,
     worn_within_02_d: Rate,
@@ -69,9 +71,8 @@ pub fn run(args: &EvalArgs) -> Result<Ending> {
 
 fn report(args: &EvalArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
     let worn = |outcome: &Outcome, tolerance_d: f64| {
-        let carried_out = outcome.stages.iter().all(|stage| stage.ok);
         let near = outcome.error_d.is_some_and(|e| e < tolerance_d);
-        outcome.grasped == Some(true) && carried_out && near
+        outcome.grasped == Some(true) && outcome.failed_at.is_none() && near
     };
     let properly = |outcome: &Outcome| {
         worn(outcome, 0.1)
@@ -83,8 +84,7 @@ fn report(args: &EvalArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Repor
     let mean = (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64);
     let mut failures = BTreeMap::new();
     for outcome in attempts.iter().filter(|o| !worn(o, 0.2)) {
-        let failed = outcome.stages.iter().find(|stage| !stage.ok);
-        let stage = failed.map_or("placed", |stage| stage.name.as_str());
+        let stage = outcome.failed_at.as_deref().unwrap_or("placed");
         *failures.entry(stage.to_owned()).or_insert(0) += 1;
     }
     Report {
@@ -93,7 +93,11 @@ fn report(args: &EvalArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Repor
         objects: args.objects.clone(),
         methods: workcell.methods.iter().map(|(k, name)| (k.name(), name.to_owned())).collect(),
         first_seed: args.first_seed,
+        tries: args.cell.tries,
         grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
+        grasped_at_first_try: Rate::of(
+            attempts.iter().map(|o| o.grasped == Some(true) && o.tries == 1),
+        ),
         worn_within_005_d: Rate::of(attempts.iter().map(|o| worn(o, 0.05))),
         worn_within_01_d: Rate::of(attempts.iter().map(|o| worn(o, 0.1))),
         worn_within_02_d: Rate::of(attempts.iter().map(|o| worn(o, 0.2))),
@@ -117,6 +121,7 @@ fn table(report: &Report) -> Result<()> {
     console::answer(&format!("{} on {} ({})", report.skill, report.objects, report.robot))?;
     for (name, rate) in [
         ("grasped", &report.grasped),
+        ("at the first try", &report.grasped_at_first_try),
         ("worn within 0.2 d", &report.worn_within_02_d),
         ("worn within 0.1 d", &report.worn_within_01_d),
         ("worn within 0.05 d", &report.worn_within_005_d),

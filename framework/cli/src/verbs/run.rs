@@ -58,7 +58,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
 
 /// A dry run succeeds when a plan was found.
 fn ending(outcome: &Outcome, dry_run: bool) -> Ending {
-    let planned = || outcome.stages.iter().all(|stage| stage.ok);
+    let planned = || outcome.failed_at.is_none();
     match outcome.success {
         Some(true) => Ending::Success,
         None if dry_run && planned() => Ending::Success,

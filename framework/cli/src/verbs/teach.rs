@@ -16,6 +16,7 @@ use seeone_plugin::{
 };
 use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage};
 use seeone_runtime::plugins::configuration;
+use seeone_runtime::run::{Acted, Execution};
 use seeone_sim::expert::VisorGrasp;
 use std::collections::BTreeMap;
 use std::fs;
@@ -26,15 +27,17 @@ const PITCH_DEG: f64 = 2.0;
 /// Grip force, newtons, of the 45 to 160 that an AG-95 has: enough to hold a visor flat
 /// between pads that come at it from above its plane.
 const GRIP_N: f64 = 140.0;
-/// The cap comes onto the head nose up by this, degrees, and levels at the very end.
-const NOSE_UP_DEG: f64 = 10.0;
-const LET_GO_NOSE_UP_DEG: f64 = 4.0;
-/// Heights over the worn pose at which it arrives, begins to level, and is let go, metres.
-/// Crowns differ in height by 12 mm (standard deviation): gravity mends a release that is
-/// too high, while one that is too low presses the cap out of the hand.
-const ABOVE_M: f64 = 0.15;
-const LEVEL_M: f64 = 0.035;
-const LET_GO_M: f64 = 0.018;
+/// Over the worn pose: height in metres, and by how many degrees the cap's nose is up. It
+/// arrives back first, ...
+const ARRIVE: (f64, f64) = (0.15, 10.0);
+/// ... is nearly level before any cap can meet the head, ...
+const LEVEL: (f64, f64) = (0.07, 5.0);
+/// ... and is let go here at the latest: how deep a crown sits differs by 12 mm (standard
+/// deviation) from cap to cap, so the hand feels for the head.
+const LOWEST: (f64, f64) = (-0.025, 0.0);
+/// It is let go as soon as the head bears so much, newtons: pulled on as a person would, and
+/// enough for an arm's force estimate to tell from noise.
+const CONTACT_N: f64 = 20.0;
 /// A cloud of more points is thinned to about so many.
 const CLOUD_POINTS: usize = 4096;
 /// A demonstration that ends farther from the worn state teaches nothing, share of d.
@@ -77,7 +80,8 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let key_poses: Vec<KeyPose> = stages.iter().map(key_pose).collect();
     let start = arm.state()?.joints;
     let obstacles = scene.obstacles();
-    let task = MotionTask { start: &start, key_poses: &key_poses, obstacles: &obstacles };
+    let task =
+        MotionTask { start: &start, holding: false, key_poses: &key_poses, obstacles: &obstacles };
     let program: Program = match motion.plan(&robot, kinematics.as_ref(), &task)? {
         MotionOutcome::Planned { program, .. } => program,
         MotionOutcome::Infeasible { stage, reason } => {
@@ -86,14 +90,25 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         }
     };
     let mut judge = cell.judge();
-    let mut grasped = false;
-    for step in &program.steps {
-        arm.execute(&step.action, &mut |_| ())
-            .with_context(|| format!("{} ({})", step.stage, step.purpose))?;
-        if step.purpose == "lift" && step.stage == stages[0].name {
-            grasped = judge.grasped()?;
-        }
+    let mut acted = Acted::default();
+    let execution = Execution {
+        robot: arm.as_mut(),
+        judge: Some(&mut judge),
+        motion: motion.as_ref(),
+        kinematics: kinematics.as_ref(),
+        model: &robot,
+        obstacles: &obstacles,
+        key_poses: &key_poses,
+        program: &program,
+        acted: &mut acted,
+        tell: &mut |_| (),
+        last_try: true,
+    };
+    if let Err(failed) = execution.run() {
+        console::tell(&format!("the expert failed at {}: {}", failed.stage, failed.reason));
+        return Ok(Ending::Failure);
     }
+    let grasped = acted.grasped == Some(true);
     let measure = Measure::Worn { tolerance_d: TOLERANCE_D };
     let verdict = judge.judge(measure, grasped)?;
     console::tell(&format!("shown with {}: {}", object.name(), verdict.reason));
@@ -137,7 +152,7 @@ fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
     let taken = grasp.tool_on(&now);
     let worn = grasp.tool_on(&cell.worn_vertices());
     let head = scene.head.pose;
-    let over = |height_m: f64, nose_up_deg: f64| {
+    let over = |(height_m, nose_up_deg): (f64, f64)| {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), nose_up_deg.to_radians());
         head * Pose::from_parts(Translation3::new(0.0, 0.0, height_m), turn) * head.inverse() * worn
     };
@@ -147,6 +162,7 @@ fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
         gripper_pose,
         approach_m: 0.0,
         opening_m: Stage::OPENING_M,
+        until_contact_n: None,
         gripper: None,
         retreat_m: 0.0,
         lift_m: 0.0,
@@ -161,12 +177,13 @@ fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
             turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,
             ..stage("pick", RelativeTo::Object, taken)
         },
-        stage("middle", on_head(), over(ABOVE_M, NOSE_UP_DEG)),
-        stage("lower", on_head(), over(LEVEL_M, NOSE_UP_DEG)),
+        stage("middle", on_head(), over(ARRIVE)),
+        stage("lower", on_head(), over(LEVEL)),
         Stage {
+            until_contact_n: Some(CONTACT_N),
             gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
             retreat_m: 0.15,
-            ..stage("release", on_head(), over(LET_GO_M, LET_GO_NOSE_UP_DEG))
+            ..stage("release", on_head(), over(LOWEST))
         },
     ])
 }
@@ -177,6 +194,7 @@ fn key_pose(stage: &Stage) -> KeyPose {
         pose: stage.gripper_pose,
         approach_m: stage.approach_m,
         opening_m: stage.opening_m,
+        until_contact_n: stage.until_contact_n,
         gripper: stage.gripper,
         retreat_m: stage.retreat_m,
         lift_m: stage.lift_m,

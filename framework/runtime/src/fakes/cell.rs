@@ -12,7 +12,7 @@ use seeone_core::formats::ply::{Encoding, write_cloud};
 use seeone_core::robot::RobotOptions;
 use seeone_core::{Cloud, Intrinsics, Pose, Similarity};
 use seeone_plugin::{
-    Action, Camera, GripReport, GripperCommand, Judge, Measure, Observation, PluginError, Robot,
+    Action, Camera, Felt, GripperCommand, Judge, Measure, Observation, PluginError, Robot,
     RobotSample, RobotState, Verdict,
 };
 use std::collections::BTreeMap;
@@ -30,10 +30,14 @@ pub(crate) struct Behaviour {
     pub(crate) panics: bool,
     /// The stage that no plan reaches.
     pub(crate) unreachable: Option<&'static str>,
-    /// Whether the gripper closes on nothing.
-    pub(crate) misses: bool,
+    /// The stage that no plan reaches that does not begin with the first.
+    pub(crate) blocks_after: Option<&'static str>,
+    /// How many times the gripper closes on nothing.
+    pub(crate) misses: usize,
     /// Whether the object falls after the grip.
     pub(crate) drops: bool,
+    /// Whether what is in the hand touches something on the way.
+    pub(crate) touches: bool,
     /// Whether nothing is in sight.
     pub(crate) blind: bool,
 }
@@ -74,26 +78,30 @@ impl Robot for FakeRobot {
         &mut self,
         action: &Action,
         watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<GripReport, PluginError> {
+    ) -> Result<Felt, PluginError> {
         broken(&self.behaviour, "act")?;
         self.moved.store(true, Ordering::Relaxed);
         match action {
             Action::Grip(GripperCommand::Close { .. }) => {
-                self.holding = !self.behaviour.misses;
+                self.holding = self.behaviour.misses == 0;
+                self.behaviour.misses = self.behaviour.misses.saturating_sub(1);
                 self.opening_m = if self.holding { 0.003 } else { 0.0 };
             }
             Action::Grip(GripperCommand::Open { opening_m }) => {
                 self.holding = false;
                 self.opening_m = *opening_m;
             }
-            Action::Move(_) => self.holding &= !self.behaviour.drops,
+            Action::Move(_) | Action::MoveUntilContact { .. } => {
+                self.holding &= !self.behaviour.drops;
+            }
         }
         let state = self.state()?;
         for _ in 0..30 {
             self.time_s += 1.0 / 30.0;
             watch(&RobotSample { time_s: self.time_s, state: state.clone() });
         }
-        Ok(GripReport { opening_m: self.opening_m, holding: self.holding })
+        let contact = matches!(action, Action::MoveUntilContact { .. }) && self.behaviour.touches;
+        Ok(Felt { opening_m: self.opening_m, holding: self.holding, contact })
     }
 }
 
@@ -233,6 +241,7 @@ fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
         gripper_pose,
         approach_m: 0.1,
         opening_m: 0.03,
+        until_contact_n: None,
         gripper: Some(if first {
             GripperCommand::Close { force_n: 20.0 }
         } else {

@@ -86,7 +86,8 @@ impl Motion for FakeMotion {
         task: &MotionTask,
     ) -> Result<MotionOutcome, PluginError> {
         broken(&self.0, "plan")?;
-        if let Some(stage) = self.0.unreachable {
+        let later = self.0.blocks_after.filter(|stage| task.key_poses[0].stage == *stage);
+        if let Some(stage) = self.0.unreachable.or(later) {
             let (stage, reason) = (stage.to_owned(), "0.30 m out of reach".to_owned());
             return Ok(MotionOutcome::Infeasible { stage, reason });
         }
@@ -99,7 +100,13 @@ impl Motion for FakeMotion {
             let mut step = |purpose, action| {
                 steps.push(Step { stage: key.stage.clone(), purpose, action });
             };
-            step("approach", line.clone());
+            let approach = match (key.until_contact_n, &line) {
+                (Some(force_n), Action::Move(trajectory)) => {
+                    Action::MoveUntilContact { trajectory: trajectory.clone(), force_n }
+                }
+                _ => line.clone(),
+            };
+            step("approach", approach);
             if let Some(command) = key.gripper {
                 step("grip", Action::Grip(command));
             }

@@ -28,6 +28,9 @@ pub struct Stage {
     pub approach_m: f64,
     /// Opening of the fingers while approaching, metres.
     pub opening_m: f64,
+    /// The line to the pose ends where the load at the wrist has changed by this, newtons:
+    /// the pose is as far as it may go. `None` goes all the way whatever it feels.
+    pub until_contact_n: Option<f64>,
     /// What the gripper does at the pose.
     pub gripper: Option<GripperCommand>,
     /// Straight retreat against the tool's z, metres.

@@ -10,6 +10,7 @@ use seeone_core::pose::PoseFields;
 use seeone_plugin::{GripperCommand, Kind, Measure};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use toml::Spanned;
 
@@ -47,6 +48,7 @@ struct RawStage {
     gripper_pose: Spanned<PoseFields>,
     approach_m: Option<Spanned<f64>>,
     opening_m: Option<Spanned<f64>>,
+    until_contact_n: Option<Spanned<f64>>,
     gripper: Option<Spanned<RawGripper>>,
     retreat_m: Option<Spanned<f64>>,
     lift_m: Option<Spanned<f64>>,
@@ -71,6 +73,9 @@ struct RawSuccess {
 const LONGEST_LINE_M: f64 = 0.5;
 /// The widest gripper opening a stage may ask for, metres.
 const WIDEST_M: f64 = 0.2;
+/// The forces of contact that a stage may ask for, newtons: what a wrist can tell from
+/// noise, and what it may push with.
+const CONTACT_N: RangeInclusive<f64> = 1.0..=50.0;
 /// The largest grip force a stage may ask for, newtons.
 const STRONGEST_N: f64 = 200.0;
 /// The farthest coordinate of a camera, metres.
@@ -151,6 +156,10 @@ fn stage(resolver: &mut Resolver, raw: &RawStage, demonstration: &Demonstration)
             Stage::OPENING_M,
             0.0..=WIDEST_M,
         ),
+        until_contact_n: raw
+            .until_contact_n
+            .as_ref()
+            .map(|force| resolver.number("until_contact_n", force, CONTACT_N)),
         gripper: raw.gripper.as_ref().and_then(|gripper| command(resolver, gripper)),
         retreat_m: resolver.number_or("retreat_m", raw.retreat_m.as_ref(), 0.0, line.clone()),
         lift_m: resolver.number_or("lift_m", raw.lift_m.as_ref(), 0.0, line),

@@ -58,6 +58,9 @@ fn stage_text(text: &mut String, stage: &Stage) {
     line(text, "gripper_pose", pose(&stage.gripper_pose));
     line(text, "approach_m", number(stage.approach_m));
     line(text, "opening_m", number(stage.opening_m));
+    if let Some(force_n) = stage.until_contact_n {
+        line(text, "until_contact_n", number(force_n));
+    }
     match stage.gripper {
         Some(GripperCommand::Close { force_n }) => {
             line(text, "gripper", format!("{{ close_n = {} }}", number(force_n)));

@@ -33,6 +33,7 @@ relative_to = "head"
 gripper_pose = { xyz_m = [0.62, 0.30, 0.38], quat_xyzw = [1, 0, 0, 0] }
 gripper = { open_m = 0.06 }
 retreat_m = 0.15
+until_contact_n = 20.0
 
 [methods]
 perception = "nst"
@@ -98,6 +99,7 @@ fn a_skill_is_read_with_its_defaults() {
     let (pick, release) = (&skill.stages[0], &skill.stages[1]);
     assert_eq!(pick.gripper, Some(GripperCommand::Close { force_n: 20.0 }));
     assert_eq!((pick.opening_m, pick.turn_about_closing_deg, pick.retreat_m), (0.03, 90.0, 0.0));
+    assert_eq!((pick.until_contact_n, release.until_contact_n), (None, Some(20.0)));
     assert_eq!(release.relative_to, RelativeTo::Frame("head".into()));
     assert_eq!(release.gripper, Some(GripperCommand::Open { opening_m: 0.06 }));
     assert_eq!(skill.measure, Measure::Worn { tolerance_d: 0.1 });
@@ -156,6 +158,11 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
             "lift_m = 2.5",
             "error[S020]: a.toml:16:10: lift_m = 2.5, but it must lie in 0 to 0.5",
         ),
+        (
+            "until_contact_n = 20.0",
+            "until_contact_n = 0.0",
+            "error[S020]: a.toml:25:19: until_contact_n = 0, but it must lie in 1 to 50",
+        ),
         ("lift_m = 0.25", "lift_m = ", "error[S002]: a.toml:16:10:"),
         ("schema = 1", "schema = 2", "error[S010]: a.toml:1:10: this schema is not known"),
         ("schema = 1", "", "error[S010]: a.toml:1:1: the file does not say its schema"),
@@ -185,10 +192,10 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
         (
             "\"nst\"",
             "\"nts\"",
-            "error[S024]: a.toml:27:14: there is no perception plugin \"nts\"\n\nhint: did you mean \"nst\"?",
+            "error[S024]: a.toml:28:14: there is no perception plugin \"nts\"\n\nhint: did you mean \"nst\"?",
         ),
-        ("perception =", "robot =", "error[S012]: a.toml:27:1: unknown key \"robot\""),
-        ("\"worn\"", "\"wron\"", "error[S024]: a.toml:30:11: there is no measure \"wron\""),
+        ("perception =", "robot =", "error[S012]: a.toml:28:1: unknown key \"robot\""),
+        ("\"worn\"", "\"wron\"", "error[S024]: a.toml:31:11: there is no measure \"wron\""),
         ("cap-wearing/demonstration.ply", "../elsewhere.ply", "error[S024]: a.toml:7:9: cloud"),
         (
             "cap-wearing/demonstration.ply",

@@ -130,6 +130,7 @@ fn key_poses(planned: &Planned) -> Value {
             "pose": pose(&key.pose),
             "approach_m": key.approach_m,
             "opening_m": key.opening_m,
+            "until_contact_n": key.until_contact_n,
             "gripper": key.gripper.as_ref().map(gripper),
             "retreat_m": key.retreat_m,
             "lift_m": key.lift_m,
@@ -148,8 +149,11 @@ fn step(step: &Step) -> Value {
         ("stage".to_owned(), json!(step.stage)),
         ("purpose".to_owned(), json!(step.purpose)),
     ]);
+    if let Action::MoveUntilContact { force_n, .. } = &step.action {
+        body.insert("until_contact_n".to_owned(), json!(force_n));
+    }
     match &step.action {
-        Action::Move(trajectory) => {
+        Action::Move(trajectory) | Action::MoveUntilContact { trajectory, .. } => {
             let positions: Vec<Value> =
                 trajectory.positions.iter().map(|joints| numbers(joints)).collect();
             body.insert("period_s".to_owned(), json!(trajectory.period_s));

@@ -2,14 +2,11 @@
 
 use super::assignment::Assignment;
 use super::bench::Bench;
+use super::execution::{Ended, Execution};
 use super::plan::Planned;
 use super::step::{Failed, StageEvent, Step};
-use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
-use seeone_plugin::{Action, GripReport, GripperCommand, Program, RobotSample};
-
-/// Between two snapshots of the object in the recording, seconds.
-const SNAPSHOT_PERIOD_S: f64 = 0.1;
+use seeone_plugin::{Judge, RobotSample};
 
 /// The object at one moment, as its judge knows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,8 +17,8 @@ pub struct Snapshot {
     pub vertices: Vec<[f64; 3]>,
 }
 
-/// What the robot did. `grasped` and `object` are what only a simulated cell can know:
-/// they go into the verdict and the recording, and nowhere else.
+/// What the robot did, in all tries. `grasped` and `object` are what only a simulated cell
+/// can know: they go into the verdict and the recording, and nowhere else.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Acted {
     /// Where the robot was, about thirty times a second.
@@ -30,6 +27,8 @@ pub struct Acted {
     pub object: Vec<Snapshot>,
     /// Whether the object was held after the lift, where anybody could tell.
     pub grasped: Option<bool>,
+    /// How often the robot reached for the object.
+    pub tries: usize,
 }
 
 impl Acted {
@@ -39,98 +38,52 @@ impl Acted {
     }
 }
 
+/// Left on a run whose hand closed on nothing and went back, to look again.
+#[derive(Component, Clone, Copy, Debug)]
+pub(super) struct Missed;
+
 pub(super) fn act(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Planned), Without<Failed>>,
+    mut runs: Query<(Entity, &Assignment, &Planned, Option<&mut Acted>), Without<Failed>>,
 ) {
-    for (run, assignment, planned) in &runs {
+    for (run, assignment, planned, mut before) in &mut runs {
         if assignment.dry_run {
             continue;
         }
-        let mut acted = Acted::default();
-        let first = &assignment.skill.stages[0].name;
-        let (done, _) = bench.timed(Step::Act, |plugins, tell| {
-            Ok(carry_out(plugins, &planned.program, first, &mut acted, tell))
+        let mut acted =
+            before.as_mut().map(|acted| std::mem::take(&mut **acted)).unwrap_or_default();
+        acted.tries += 1;
+        let last_try = acted.tries >= assignment.tries;
+        let Planned { key_poses, program, .. } = planned;
+        let obstacles = &assignment.scene.obstacles();
+        let (ended, _) = bench.timed(Step::Act, |plugins, tell| {
+            let execution = Execution {
+                robot: plugins.robot.as_mut(),
+                judge: plugins.judge.as_deref_mut().map(|judge| judge as &mut dyn Judge),
+                motion: plugins.motion.as_ref(),
+                kinematics: plugins.kinematics.as_ref(),
+                model: &assignment.robot,
+                obstacles,
+                key_poses,
+                program,
+                acted: &mut acted,
+                tell,
+                last_try,
+            };
+            Ok(execution.run())
         });
-        let done =
-            done.unwrap_or_else(|reason| Err(Failed { stage: Step::Act.name().into(), reason }));
-        if let Err(failed) = done {
-            let (name, reason) = (failed.stage.clone(), Some(failed.reason.clone()));
-            bench.tell(StageEvent { name, ok: false, seconds: 0.0, reason });
-            commands.entity(run).insert(failed);
+        let ended =
+            ended.unwrap_or_else(|reason| Err(Failed { stage: Step::Act.name().into(), reason }));
+        match ended {
+            Ok(Ended::Done) => {}
+            Ok(Ended::Missed) => _ = commands.entity(run).insert(Missed),
+            Err(failed) => {
+                let (name, reason) = (failed.stage.clone(), Some(failed.reason.clone()));
+                bench.tell(StageEvent { name, ok: false, seconds: 0.0, reason });
+                commands.entity(run).insert(failed);
+            }
         }
         commands.entity(run).insert(acted);
     }
-}
-
-/// Carries out every step and tells of every stage that is done. What the robot goes by is
-/// what its own gripper feels; the judge is asked for the verdict's sake alone.
-fn carry_out(
-    plugins: &mut Plugins,
-    program: &Program,
-    first: &str,
-    acted: &mut Acted,
-    tell: &mut dyn FnMut(StageEvent),
-) -> Result<(), Failed> {
-    let lifted = lifted(program, first);
-    let mut carrying = false;
-    let mut began_s = None;
-    for (index, step) in program.steps.iter().enumerate() {
-        let failed = |reason: String| Failed { stage: step.stage.clone(), reason };
-        let report = execute(plugins, &step.action, acted).map_err(failed)?;
-        match step.action {
-            Action::Grip(GripperCommand::Close { .. }) if !report.holding => {
-                let opening_mm = report.opening_m * 1e3;
-                return Err(failed(format!("closed on nothing, at {opening_mm:.1} mm")));
-            }
-            Action::Grip(GripperCommand::Close { .. }) => carrying = true,
-            Action::Grip(GripperCommand::Open { .. }) => carrying = false,
-            Action::Move(_) if carrying && !report.holding => {
-                return Err(failed(format!("lost the object on the way ({})", step.purpose)));
-            }
-            Action::Move(_) => {}
-        }
-        if Some(index) == lifted
-            && let Some(judge) = &mut plugins.judge
-        {
-            acted.grasped = Some(judge.grasped().map_err(|e| failed(e.to_string()))?);
-        }
-        let began = *began_s.get_or_insert_with(|| acted.robot.first().map_or(0.0, |s| s.time_s));
-        if program.steps.get(index + 1).is_none_or(|next| next.stage != step.stage) {
-            let seconds = acted.end_s() - began;
-            tell(StageEvent { name: step.stage.clone(), ok: true, seconds, reason: None });
-            began_s = Some(acted.end_s());
-        }
-    }
-    Ok(())
-}
-
-/// The step after which the object is judged to be held or not: the lift of the first
-/// stage, or its last step when it has none.
-fn lifted(program: &Program, first: &str) -> Option<usize> {
-    let steps = &program.steps;
-    steps
-        .iter()
-        .rposition(|step| step.stage == first && step.purpose == "lift")
-        .or_else(|| steps.iter().rposition(|step| step.stage == first))
-}
-
-/// One action, with what is seen on the way.
-fn execute(
-    plugins: &mut Plugins,
-    action: &Action,
-    acted: &mut Acted,
-) -> Result<GripReport, String> {
-    let Plugins { robot, judge, .. } = plugins;
-    let report = robot.execute(action, &mut |sample| {
-        acted.robot.push(sample.clone());
-        let due = |last: &Snapshot| sample.time_s >= last.time_s + SNAPSHOT_PERIOD_S - 1e-9;
-        if let Some(judge) = judge
-            && acted.object.last().is_none_or(due)
-        {
-            acted.object.push(Snapshot { time_s: sample.time_s, vertices: judge.object() });
-        }
-    });
-    report.map_err(|e| e.to_string())
 }

@@ -28,6 +28,9 @@ pub struct Assignment {
     pub robot_name: String,
     /// The seed of the run.
     pub seed: u64,
+    /// How often the robot may look and reach for the object, if its hand closes on
+    /// nothing; one or more.
+    pub tries: usize,
     /// Whether to stop after planning.
     pub dry_run: bool,
     /// Where to write the recording, if at all.
@@ -37,7 +40,7 @@ pub struct Assignment {
 }
 
 impl Assignment {
-    /// An assignment with seed 0 that is carried out and not recorded.
+    /// An assignment with seed 0 that is tried once and not recorded.
     ///
     /// # Errors
     /// `P0xx` when the demonstration's cloud cannot be read, `M005` when the skill has no
@@ -69,6 +72,7 @@ impl Assignment {
             object: scene.object.clone(),
             robot_name: robot.name().to_owned(),
             seed: 0,
+            tries: 1,
             dry_run: false,
             recording: None,
             provenance: BTreeMap::new(),
@@ -111,6 +115,7 @@ impl Assignment {
                 "drop_centre_xy_m": drop.centre.coords.as_slice(),
             },
             "seed": self.seed,
+            "tries": self.tries,
             "methods": self.methods.iter().map(|(kind, name)| (kind.name(), name)).collect::<BTreeMap<_, _>>(),
             "provenance": self.provenance,
         })

@@ -22,6 +22,10 @@ pub struct Outcome {
     /// Which plugin did what.
     #[serde(serialize_with = "methods")]
     pub methods: Vec<(Kind, String)>,
+    /// How often the robot looked and reached for the object; zero after a dry run.
+    pub tries: usize,
+    /// The step of the run, or the stage of the skill, at which it ended early.
+    pub failed_at: Option<String>,
     /// Held after the lift; `None` when nobody could tell, as after a dry run.
     pub grasped: Option<bool>,
     /// Every stage carried out, and within the skill's tolerance; `None` when nobody could tell.
@@ -38,7 +42,7 @@ pub struct Outcome {
     pub reason: String,
     /// How each step and each stage of the skill ended, in order.
     pub stages: Vec<StageEvent>,
-    /// Time of each step by the clock that was handed in, milliseconds.
+    /// Time of each step, in all tries together, by the clock that was handed in, milliseconds.
     #[serde(serialize_with = "timings")]
     pub timings_ms: Vec<(Step, f64)>,
     /// Where the recording lies.
@@ -50,6 +54,7 @@ impl Outcome {
         assignment: &Assignment,
         bench: &Bench,
         verdict: Option<&Verdict>,
+        tries: usize,
         failed: Option<&Failed>,
         recorded: Option<&Recorded>,
     ) -> Self {
@@ -66,6 +71,8 @@ impl Outcome {
             robot: assignment.robot_name.clone(),
             seed: assignment.seed,
             methods: methods.collect(),
+            tries,
+            failed_at: failed.map(|failed| failed.stage.clone()),
             grasped: verdict.map(|verdict| verdict.grasped),
             success: verdict.map(|verdict| verdict.success),
             error_m: verdict.and_then(|verdict| verdict.error_m),

@@ -62,7 +62,12 @@ fn planned(
                 break;
             }
             let key_poses = key_poses(assignment, transferred, grasp, turn);
-            let task = MotionTask { start: &start, key_poses: &key_poses, obstacles: &obstacles };
+            let task = MotionTask {
+                start: &start,
+                holding: false,
+                key_poses: &key_poses,
+                obstacles: &obstacles,
+            };
             let outcome = plugins
                 .motion
                 .plan(&assignment.robot, plugins.kinematics.as_ref(), &task)
@@ -115,6 +120,7 @@ fn key_poses(
             pose: pose(&stage.relative_to, &stage.gripper_pose) * turn.pose(),
             approach_m: stage.approach_m,
             opening_m: stage.opening_m,
+            until_contact_n: stage.until_contact_n,
             gripper: stage.gripper,
             retreat_m: stage.retreat_m,
             lift_m: stage.lift_m,

@@ -1,18 +1,25 @@
 //! The ECS world and schedule of a run.
 
+use super::act::Missed;
 use super::assignment::Assignment;
 use super::bench::{Bench, Hooks};
 use super::judge::Judged;
 use super::outcome::Outcome;
 use super::record::Recorded;
 use super::step::{Failed, Step};
+use super::{Acted, Encoded, Perceived, Planned, Seen, Transferred};
 use super::{act, encode, judge, observe, perceive, plan, record, transfer};
 use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
+/// From a look to what the robot did; once for every try.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct RunSkill;
+struct Try;
+
+/// The verdict and the recording.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Close;
 
 /// A run that is over.
 pub struct Finished {
@@ -37,33 +44,41 @@ pub fn run(assignment: Assignment, plugins: Plugins, hooks: Hooks) -> Finished {
     let mut world = World::new();
     world.insert_non_send(Bench::new(plugins, hooks));
     let run = world.spawn(assignment).id();
-    schedule().run(&mut world);
+    let mut reach = reach();
+    reach.run(&mut world);
+    while again(&mut world, run) {
+        reach.run(&mut world);
+    }
+    close().run(&mut world);
     let bench: Bench = world.remove_non_send().expect("the bench was put there above");
     let outcome = Outcome::new(
         world.get::<Assignment>(run).expect("no step takes the assignment away"),
         &bench,
         world.get::<Judged>(run).map(|judged| &judged.0),
+        world.get::<Acted>(run).map_or(0, |acted| acted.tries),
         world.get::<Failed>(run),
         world.get::<Recorded>(run),
     );
     Finished { outcome, plugins: bench.plugins, world, run }
 }
 
-/// The steps, one after another on one thread.
-pub(super) fn schedule() -> Schedule {
-    let mut schedule = Schedule::new(RunSkill);
+/// Whether the hand missed and there is another try; what the last one found is then gone,
+/// all but what the robot did.
+fn again(world: &mut World, run: Entity) -> bool {
+    let mut run = world.entity_mut(run);
+    if run.take::<Missed>().is_none() {
+        return false;
+    }
+    run.remove::<(Seen, Perceived, Encoded, Transferred, Planned)>();
+    true
+}
+
+/// The steps of one try, one after another on one thread.
+pub(super) fn reach() -> Schedule {
+    let mut schedule = Schedule::new(Try);
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.configure_sets(
-        (
-            Step::Observe,
-            Step::Perceive,
-            Step::Encode,
-            Step::Transfer,
-            Step::Plan,
-            Step::Act,
-            Step::Judge,
-            Step::Record,
-        )
+        (Step::Observe, Step::Perceive, Step::Encode, Step::Transfer, Step::Plan, Step::Act)
             .chain(),
     );
     schedule.add_systems((
@@ -73,9 +88,16 @@ pub(super) fn schedule() -> Schedule {
         transfer::transfer.in_set(Step::Transfer),
         plan::plan.in_set(Step::Plan),
         act::act.in_set(Step::Act),
-        judge::judge.in_set(Step::Judge),
-        record::record.in_set(Step::Record),
     ));
+    schedule
+}
+
+/// The steps that every run ends with.
+pub(super) fn close() -> Schedule {
+    let mut schedule = Schedule::new(Close);
+    schedule.set_executor(SingleThreadedExecutor::new());
+    schedule.configure_sets((Step::Judge, Step::Record).chain());
+    schedule.add_systems((judge::judge.in_set(Step::Judge), record::record.in_set(Step::Record)));
     schedule
 }
 

@@ -24,12 +24,13 @@ fn names(outcome: &Outcome) -> Vec<&str> {
 
 #[test]
 fn the_steps_have_an_order_and_none_is_ambiguous() {
-    let mut schedule = schedule::schedule();
-    schedule.set_build_settings(ScheduleBuildSettings {
-        ambiguity_detection: LogLevel::Error,
-        ..Default::default()
-    });
-    schedule.initialize(&mut World::new()).unwrap();
+    for mut schedule in [schedule::reach(), schedule::close()] {
+        schedule.set_build_settings(ScheduleBuildSettings {
+            ambiguity_detection: LogLevel::Error,
+            ..Default::default()
+        });
+        schedule.initialize(&mut World::new()).unwrap();
+    }
 }
 
 #[test]
@@ -114,7 +115,7 @@ fn a_step_that_fails_ends_the_run_but_not_its_verdict_and_recording() {
 fn what_the_gripper_feels_ends_the_run() {
     let cell = FakeCell::new();
     let cases = [
-        (Behaviour { misses: true, ..Behaviour::default() }, "pick: closed on nothing, at 0.0 mm"),
+        (Behaviour { misses: 1, ..Behaviour::default() }, "pick: closed on nothing, at 0.0 mm"),
         (
             Behaviour { drops: true, ..Behaviour::default() },
             "pick: lost the object on the way (lift)",
@@ -130,6 +131,56 @@ fn what_the_gripper_feels_ends_the_run() {
         assert_eq!((outcome.grasped, outcome.success), (Some(false), Some(false)));
         assert_eq!(names(&outcome)[5..], ["pick", "judge", "record"]);
     }
+}
+
+#[test]
+fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
+    let cell = FakeCell::new();
+    let tried = |misses: usize, tries: usize| {
+        let mut assignment = cell.assignment();
+        assignment.tries = tries;
+        let behaviour = Behaviour { misses, ..Behaviour::default() };
+        run(assignment, cell.plugins(behaviour), Hooks::default()).outcome
+    };
+    let once = tried(1, 3);
+    assert_eq!((once.tries, once.success, once.failed_at.clone()), (2, Some(true), None));
+    let one_try = ["observe", "perceive", "encode", "transfer", "plan", "pick"];
+    let expected = [&one_try[..], &one_try[..], &["release", "judge"]].concat();
+    assert_eq!(names(&once), expected);
+    let missed = &once.stages[5];
+    assert_eq!(
+        (missed.ok, missed.reason.as_deref()),
+        (false, Some("closed on nothing, at 0.0 mm"))
+    );
+    assert_eq!(once.timings_ms.len(), 7, "times of both tries are added");
+    // Approach, grip, open, and the approach again, backwards.
+    assert!((missed.seconds - 4.0).abs() < 0.05, "{}", missed.seconds);
+
+    let always = tried(9, 3);
+    assert_eq!((always.tries, always.success), (3, Some(false)));
+    assert_eq!(always.failed_at.as_deref(), Some("pick"));
+    assert_eq!(always.reason, "pick: closed on nothing, at 0.0 mm");
+}
+
+#[test]
+fn contact_ends_a_line_and_the_rest_is_planned_from_there() {
+    let mut cell = FakeCell::new();
+    cell.skill.stages[1].until_contact_n = Some(20.0);
+    let behaviour = Behaviour { touches: true, ..Behaviour::default() };
+    let finished = finished(&cell, behaviour);
+    let outcome = &finished.outcome;
+    assert_eq!((outcome.success, outcome.failed_at.clone()), (Some(true), None));
+    let release = outcome.stages.iter().find(|stage| stage.name == "release").unwrap();
+    let note = release.reason.as_deref().unwrap();
+    assert!(release.ok && note.starts_with("contact ") && note.ends_with(" mm before the pose"));
+    // Approach and grip as planned, then approach and retreat of the new plan.
+    assert!((release.seconds - 4.0).abs() < 0.05, "{}", release.seconds);
+    let behaviour = Behaviour { blocks_after: Some("release"), ..behaviour };
+    let outcome = self::finished(&cell, behaviour).outcome;
+    assert_eq!(
+        outcome.reason,
+        "release: felt contact, and there is no way on from there: release: 0.30 m out of reach"
+    );
 }
 
 #[test]

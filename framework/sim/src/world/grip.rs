@@ -59,6 +59,7 @@ impl World {
             held_points: self.grasp.as_ref().map_or(0, Grasp::points),
             slip_m: self.grasp.as_ref().map_or(0.0, |g| g.slip_m(&self.shell, &fingers.now)),
             closed: matches!(fingers.command, Command::Grip(_)),
+            load_n: self.grasp.as_ref().map_or_else(Vector3::zeros, Grasp::load_n),
         }
     }
 
