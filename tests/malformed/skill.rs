@@ -12,6 +12,7 @@ fn a_wrong_line_of_a_skill_is_told() {
             ("unknown key", "lift_m", "lift_mm = 3.0", "S012", "did you mean \"lift_m\"?"),
             ("not finite", "lift_m", "lift_m = nan", "S003", "nan is not a finite number"),
             ("wrong type", "lift_m", "lift_m = \"high\"", "S013", ""),
+            ("no force", "until_contact_n", "until_contact_n = -5.0", "S020", "until_contact_n"),
             ("too far", "approach_m", "approach_m = 7.0", "S020", "approach_m"),
             (
                 "not a rotation",

@@ -6,7 +6,7 @@ use rand::RngExt;
 use seeone_core::random::{Generator, uniform};
 
 /// Largest change of the canonical proportions (width and height against length).
-const PROPORTIONS: f64 = 0.08;
+const PROPORTIONS: f64 = 0.04;
 /// Share of samples in which a patch of points is hidden, and its largest radius (m).
 const HIDDEN_SHARE: f64 = 0.3;
 const HIDDEN_RADIUS_M: (f64, f64) = (0.015, 0.05);

@@ -8,17 +8,18 @@ use nalgebra::Point3;
 use seeone_core::Cloud;
 use seeone_core::frames::Frame;
 use seeone_nn::train::Ending as Trained;
-use seeone_nse::Progress as NseProgress;
+use seeone_nse::{Nse, Progress as NseProgress};
 use seeone_nst::{NstPerception, NstTrainError, Report, Stage};
 use seeone_plugin::Observation;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Samples of a full training; `--share` takes a part of them.
 const COARSE_SAMPLES: f64 = 36_000.0;
-const REFINER_SAMPLES: f64 = 80_000.0;
+const REFINER_SAMPLES: f64 = 100_000.0;
 const NSE_SAMPLES: f64 = 4_000.0;
 /// Frames at rest that the encoding learns from.
 const NSE_FRAMES: usize = 1_600;
@@ -65,21 +66,22 @@ fn samples(full: f64, args: &TrainArgs) -> u64 {
     (full * args.share).round().max(1.0) as u64
 }
 
+/// The sets of other objects that lie beside the training set, for the cards' figures.
+fn measure_on(args: &TrainArgs) -> BTreeMap<String, PathBuf> {
+    let sets = ["validation", "unseen"].map(|name| (name, args.data.with_file_name(name)));
+    let there = sets.into_iter().filter(|(_, folder)| folder.join("index.json").exists());
+    there.map(|(name, folder)| (name.to_owned(), folder)).collect()
+}
+
 fn bar() -> Result<ProgressBar> {
     let style = "{msg} {wide_bar} {pos}/{len}, {per_sec}, {eta} left";
     Ok(ProgressBar::new(0).with_style(ProgressStyle::with_template(style)?))
 }
 
 fn train_nst(args: &TrainArgs, out: &Path, go_on: &dyn Fn() -> ControlFlow<()>) -> Result<bool> {
-    let others = ["validation", "unseen"].map(|name| (name, args.data.with_file_name(name)));
-    let measure_on = others
-        .into_iter()
-        .filter(|(_, folder)| folder.join("index.json").exists())
-        .map(|(name, folder)| (name.to_owned(), folder))
-        .collect();
     let plan = seeone_nst::TrainPlan {
         data: args.data.clone(),
-        measure_on,
+        measure_on: measure_on(args),
         out: out.to_owned(),
         seed: args.seed,
         coarse_samples: samples(COARSE_SAMPLES, args),
@@ -134,7 +136,7 @@ fn train_nse(
     };
     let bar = bar()?;
     let perceive = |frame: &Frame| nst.canonical(&observation(frame));
-    let ending = seeone_nse::train(&plan, &perceive, &mut |told| {
+    let mut tell = |told| {
         match told {
             NseProgress::Perceiving { done, total } => {
                 bar.set_length(total as u64);
@@ -148,9 +150,20 @@ fn train_nse(
             }
         }
         go_on()
-    })?;
+    };
+    if seeone_nse::train(&plan, &perceive, &mut tell)? == Trained::Interrupted {
+        return Ok(false);
+    }
+    let nse = Nse::load(out, perception)?;
+    for (set, folder) in measure_on(args) {
+        let Some(figures) = seeone_nse::evaluate(&nse, &folder, &perceive, &mut tell)? else {
+            return Ok(false);
+        };
+        seeone_nse::record(out, &set, &figures)?;
+        bar.println(format!("nse on {set}: {figures:?}"));
+    }
     bar.finish_and_clear();
-    Ok(ending == Trained::Finished)
+    Ok(true)
 }
 
 /// A frame of the set as a camera would have shown it.
