@@ -86,9 +86,12 @@ fn moments_of(workcell: &Workcell, finished: &Finished) -> Vec<Moment> {
     let mut ends = Vec::new();
     let mut time = first.time_s;
     for stage in &workcell.skill.stages {
-        let told = finished.outcome.stages.iter().find(|told| told.name == stage.name && told.ok);
-        let Some(told) = told else { break };
-        time += told.seconds;
+        // Tries that closed on nothing took their time, too.
+        let told = || finished.outcome.stages.iter().filter(|told| told.name == stage.name);
+        if !told().any(|told| told.ok) {
+            break;
+        }
+        time += told().map(|told| told.seconds).sum::<f64>();
         ends.push(time);
     }
     let chosen = match ends.as_slice() {

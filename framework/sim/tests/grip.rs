@@ -10,10 +10,16 @@ use seeone_sim::{Hand, Region, Settings, Surroundings, World};
 
 /// A floating cap with the gripper about the tip of its visor, pads open.
 fn at_the_visor() -> World {
+    at_the_visor_over(Surroundings::default())
+}
+
+/// The same over something, 70 mm above a table.
+fn at_the_visor_over(surroundings: Surroundings) -> World {
     let settings = Settings { gravity: Vector3::zeros(), ..Settings::default() };
     let cap = a_cap();
-    let placed = Pose::translation(0.0, 0.0, 0.5);
-    let mut world = World::new(&cap, &placed, Surroundings::default(), settings);
+    let lowest = cap.mesh().vertices().iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
+    let placed = Pose::translation(0.0, 0.0, 0.07 - lowest);
+    let mut world = World::new(&cap, &placed, surroundings, settings);
     let visor: Vec<Point3<f64>> =
         cap.vertices_of(Region::Brim).iter().map(|v| world.vertices()[*v]).collect();
     let tip = visor.iter().copied().fold(visor[0], |a, p| if p.y > a.y { p } else { a });
@@ -64,6 +70,28 @@ fn a_firm_grip_carries_the_cap_and_opening_drops_it() {
     assert_eq!(world.hand_state().held_points, 0);
     advance(&mut world, 1.0);
     assert!(held - world.centre_of_mass().z > 1.0, "stuck to an open gripper");
+}
+
+#[test]
+fn the_hand_feels_what_it_presses_the_cap_onto() {
+    let mut world = at_the_visor_over(Surroundings { table: true, ..Surroundings::default() });
+    world.close(140.0);
+    advance(&mut world, 0.5);
+    let hand = *world.hand().expect("a hand");
+    let before = world.hand_state().load_n;
+    let mut most_n: f64 = 0.0;
+    for frame in 1..=120 {
+        // At 50 mm/s down to where the crown is pressed 30 mm flat.
+        let depth = f64::from(frame) * 0.05 / 60.0;
+        world.move_hand(&Hand { pose: Translation3::new(0.0, 0.0, -depth) * hand.pose, ..hand });
+        world.advance();
+        let change_n = (world.hand_state().load_n - before).norm();
+        if depth < 0.05 {
+            assert!(change_n < 2.0, "{change_n} N {} mm above the table", 1e3 * (0.07 - depth));
+        }
+        most_n = most_n.max(change_n);
+    }
+    assert!(most_n > 5.0, "{most_n} N");
 }
 
 #[test]

@@ -15,9 +15,9 @@ pub struct MotionConfig {
     pub line_speed_m_s: f64,
     /// Largest speed of the tool within [`Self::near_m`] of a key pose on a line.
     pub near_speed_m_s: f64,
-    /// Speed of the tool on lines that end with contact, metres a second: it goes on for
-    /// some 20 ms after what is in the hand has touched.
-    pub feel_speed_m_s: f64,
+    /// Speed of the tool on lines that end with contact, metres a second: the slower, the less
+    /// it presses on before the load is felt.
+    pub guarded_speed_m_s: f64,
     /// How near "near" is, metres.
     pub near_m: f64,
     /// Largest speed of the tool in free space, metres a second.
@@ -51,7 +51,7 @@ impl Default for MotionConfig {
             period_s: 0.008,
             line_speed_m_s: 0.25,
             near_speed_m_s: 0.1,
-            feel_speed_m_s: 0.05,
+            guarded_speed_m_s: 0.05,
             near_m: 0.05,
             transit_speed_m_s: 1.0,
             held_speed_m_s: 0.5,
@@ -77,7 +77,7 @@ impl MotionConfig {
             ("period_s", self.period_s),
             ("line_speed_m_s", self.line_speed_m_s),
             ("near_speed_m_s", self.near_speed_m_s),
-            ("feel_speed_m_s", self.feel_speed_m_s),
+            ("guarded_speed_m_s", self.guarded_speed_m_s),
             ("transit_speed_m_s", self.transit_speed_m_s),
             ("held_speed_m_s", self.held_speed_m_s),
             ("line_step_m", self.line_step_m),

@@ -157,7 +157,7 @@ impl<'a> Plan<'a> {
         for keys in self.task.key_poses.chunk_by(Walker::joins) {
             let ready = hand.approaching(&keys[0]);
             let open = GripperCommand::Open { opening_m: ready.opening_m };
-            let prepare = (!ready.holding && ready != hand).then_some(open);
+            let prepare = (ready != hand).then_some(open);
             groups.push(Group { keys, hand: ready, prepare });
             hand = keys.iter().fold(ready, |hand, key| hand.after(key.gripper));
         }

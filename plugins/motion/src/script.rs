@@ -42,8 +42,8 @@ impl<'a> Script<'a> {
                 Deed::Line { path, slow_start, slow_end } => {
                     Action::Move(self.line(&path, slow_start, slow_end))
                 }
-                Deed::Feel { path, force_n } => {
-                    let speed = self.timing.config.feel_speed_m_s;
+                Deed::Guarded { path, force_n } => {
+                    let speed = self.timing.config.guarded_speed_m_s;
                     let trajectory = self.timing.line(&[(&path, speed)]);
                     Action::MoveUntilContact { trajectory, force_n }
                 }

@@ -122,7 +122,7 @@ fn a_line_that_ends_with_contact_is_slow_all_the_way() {
     let tips = trajectory.positions.iter().map(|q| robot.tool_pose(q).translation.vector);
     let tips: Vec<Vector3<f64>> = tips.collect();
     let fastest = tips.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
-    assert!(fastest / trajectory.period_s <= MotionConfig::default().feel_speed_m_s * 1.001);
+    assert!(fastest / trajectory.period_s <= MotionConfig::default().guarded_speed_m_s * 1.001);
 }
 
 #[test]

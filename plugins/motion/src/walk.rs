@@ -24,7 +24,7 @@ pub(crate) enum Deed {
     /// Run through these closely spaced postures; slowly near the first, the last, or both.
     Line { path: Vec<Vec<f64>>, slow_start: bool, slow_end: bool },
     /// Run through these until contact with this force, newtons.
-    Feel { path: Vec<Vec<f64>>, force_n: f64 },
+    Guarded { path: Vec<Vec<f64>>, force_n: f64 },
     /// Move the fingers.
     Grip(GripperCommand),
 }
@@ -139,14 +139,14 @@ impl<'a> Walker<'a> {
 impl<'a> Walk<'a> {
     fn approach(&mut self, key: &'a KeyPose, path: Vec<Vec<f64>>) {
         let deed = match key.until_contact_n {
-            Some(force_n) => Deed::Feel { path, force_n },
+            Some(force_n) => Deed::Guarded { path, force_n },
             None => Deed::Line { path, slow_start: false, slow_end: true },
         };
         self.push(key, "approach", deed);
     }
 
     fn push(&mut self, key: &'a KeyPose, purpose: &'static str, deed: Deed) {
-        if let Deed::Line { path, .. } | Deed::Feel { path, .. } = &deed {
+        if let Deed::Line { path, .. } | Deed::Guarded { path, .. } = &deed {
             self.exit.clone_from(&path[path.len() - 1]);
         }
         self.legs.push(Leg { stage: &key.stage, purpose, deed });

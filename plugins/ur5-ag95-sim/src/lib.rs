@@ -133,6 +133,10 @@ impl SimulatedArm {
         {
             return Err(PluginError::Input(format!("contact with {force_n} N is none")));
         }
+        if contact_n.is_some() && !self.lock()?.pads_feel_load() {
+            let cause = "the simulated wrist feels only the load of what is held";
+            return Err(PluginError::Input(cause.into()));
+        }
         let before = self.lock()?.load_n();
         let frames = (trajectory.duration_s() / FRAME_S).ceil() as usize + self.servo.tail_frames();
         for frame in 1..=frames {

@@ -46,7 +46,8 @@ const TOLERANCE_D: f64 = 0.1;
 /// Shows the skill, and writes it when it succeeded.
 ///
 /// # Errors
-/// When the expert cannot carry it out, or a file cannot be written.
+/// When a file is wrong or cannot be written, or a plugin cannot be built. A demonstration that
+/// fails is told, and nothing is written.
 pub fn run(args: &TeachArgs) -> Result<Ending> {
     let registry = builtin::registry();
     let known = registry.known();

@@ -154,15 +154,16 @@ fn train_nse(
     if seeone_nse::train(&plan, &perceive, &mut tell)? == Trained::Interrupted {
         return Ok(false);
     }
+    bar.finish_and_clear();
     let nse = Nse::load(out, perception)?;
     for (set, folder) in measure_on(args) {
-        let Some(figures) = seeone_nse::evaluate(&nse, &folder, &perceive, &mut tell)? else {
-            return Ok(false);
-        };
-        seeone_nse::record(out, &set, &figures)?;
-        bar.println(format!("nse on {set}: {figures:?}"));
+        // Not to be interrupted: the weights are whole, and their checkpoint is gone.
+        let mut go_on = |_| ControlFlow::Continue(());
+        if let Some(figures) = seeone_nse::evaluate(&nse, &folder, &perceive, &mut go_on)? {
+            seeone_nse::record(out, &set, &figures)?;
+            console::tell(&format!("nse on {set}: {figures:?}"));
+        }
     }
-    bar.finish_and_clear();
     Ok(true)
 }
 

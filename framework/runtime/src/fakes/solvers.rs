@@ -86,6 +86,11 @@ impl Motion for FakeMotion {
         task: &MotionTask,
     ) -> Result<MotionOutcome, PluginError> {
         broken(&self.0, "plan")?;
+        if task.holding != (task.key_poses[0].stage != "pick") {
+            return Err(PluginError::Internal(
+                "only a plan from the start has an empty hand".into(),
+            ));
+        }
         let later = self.0.blocks_after.filter(|stage| task.key_poses[0].stage == *stage);
         if let Some(stage) = self.0.unreachable.or(later) {
             let (stage, reason) = (stage.to_owned(), "0.30 m out of reach".to_owned());

@@ -73,8 +73,8 @@ struct RawSuccess {
 const LONGEST_LINE_M: f64 = 0.5;
 /// The widest gripper opening a stage may ask for, metres.
 const WIDEST_M: f64 = 0.2;
-/// The forces of contact that a stage may ask for, newtons: what a wrist can tell from
-/// noise, and what it may push with.
+/// The forces of contact that a stage may ask for, newtons: more than nothing, and what may be
+/// pushed with.
 const CONTACT_N: RangeInclusive<f64> = 1.0..=50.0;
 /// The largest grip force a stage may ask for, newtons.
 const STRONGEST_N: f64 = 200.0;
@@ -138,7 +138,17 @@ fn stages(
             let cause = format!("a second stage is named {:?}", raw.name.get_ref());
             resolver.fault(Fault::Name, raw.name.span(), cause);
         }
-        stages.push(stage(resolver, raw, demonstration));
+        let read = stage(resolver, raw, demonstration);
+        let joined = stages.last().is_some_and(|last| last.lift_m == 0.0 && last.retreat_m == 0.0);
+        if let Some(force) = &raw.until_contact_n
+            && read.approach_m == 0.0
+            && !joined
+        {
+            let cause = "no straight line leads to this pose on which contact could be felt; \
+                         give it an approach_m";
+            resolver.fault(Fault::Order, force.span(), cause);
+        }
+        stages.push(read);
     }
     stages
 }

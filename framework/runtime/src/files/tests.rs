@@ -34,6 +34,7 @@ gripper_pose = { xyz_m = [0.62, 0.30, 0.38], quat_xyzw = [1, 0, 0, 0] }
 gripper = { open_m = 0.06 }
 retreat_m = 0.15
 until_contact_n = 20.0
+approach_m = 0.05
 
 [methods]
 perception = "nst"
@@ -159,6 +160,11 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
             "error[S020]: a.toml:16:10: lift_m = 2.5, but it must lie in 0 to 0.5",
         ),
         (
+            "approach_m = 0.05",
+            "",
+            "error[S023]: a.toml:25:19: no straight line leads to this pose on which contact",
+        ),
+        (
             "until_contact_n = 20.0",
             "until_contact_n = 0.0",
             "error[S020]: a.toml:25:19: until_contact_n = 0, but it must lie in 1 to 50",
@@ -192,10 +198,10 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
         (
             "\"nst\"",
             "\"nts\"",
-            "error[S024]: a.toml:28:14: there is no perception plugin \"nts\"\n\nhint: did you mean \"nst\"?",
+            "error[S024]: a.toml:29:14: there is no perception plugin \"nts\"\n\nhint: did you mean \"nst\"?",
         ),
-        ("perception =", "robot =", "error[S012]: a.toml:28:1: unknown key \"robot\""),
-        ("\"worn\"", "\"wron\"", "error[S024]: a.toml:31:11: there is no measure \"wron\""),
+        ("perception =", "robot =", "error[S012]: a.toml:29:1: unknown key \"robot\""),
+        ("\"worn\"", "\"wron\"", "error[S024]: a.toml:32:11: there is no measure \"wron\""),
         ("cap-wearing/demonstration.ply", "../elsewhere.ply", "error[S024]: a.toml:7:9: cloud"),
         (
             "cap-wearing/demonstration.ply",

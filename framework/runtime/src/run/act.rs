@@ -47,12 +47,11 @@ pub(super) fn act(
     mut bench: NonSendMut<Bench>,
     mut runs: Query<(Entity, &Assignment, &Planned, Option<&mut Acted>), Without<Failed>>,
 ) {
-    for (run, assignment, planned, mut before) in &mut runs {
+    for (run, assignment, planned, before) in &mut runs {
         if assignment.dry_run {
             continue;
         }
-        let mut acted =
-            before.as_mut().map(|acted| std::mem::take(&mut **acted)).unwrap_or_default();
+        let mut acted = before.map(|mut acted| std::mem::take(&mut *acted)).unwrap_or_default();
         acted.tries += 1;
         let last_try = acted.tries >= assignment.tries;
         let Planned { key_poses, program, .. } = planned;

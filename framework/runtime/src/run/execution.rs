@@ -83,7 +83,7 @@ impl Execution<'_> {
                     let reason = format!("closed on nothing, at {:.1} mm", felt.opening_m * 1e3);
                     return match past.moves.take() {
                         Some(moves) if !self.last_try && step.stage == self.first() => {
-                            self.go_back(moves).map_err(failed)?;
+                            self.retrace(moves).map_err(failed)?;
                             self.told(&step, &past, false, Some(reason));
                             Ok(Ended::Missed)
                         }
@@ -100,10 +100,8 @@ impl Execution<'_> {
                     return Err(failed(format!("lost the object on the way ({purpose})")));
                 }
                 Action::MoveUntilContact { .. } if felt.contact => {
-                    // The gripper does at the contact what it was to do at the pose.
-                    steps.retain(|next| next.stage == step.stage && next.purpose == "grip");
-                    let short_m =
-                        self.plan_anew(&step, past.carrying, &mut steps).map_err(failed)?;
+                    let (rest, short_m) = self.replan(&step, past.carrying).map_err(failed)?;
+                    steps = rest;
                     past.moves = None;
                     let short_mm = short_m * 1e3;
                     past.note = Some(format!("contact {short_mm:.0} mm before the pose"));
@@ -112,7 +110,7 @@ impl Execution<'_> {
                     past.moves.iter_mut().for_each(|moves| moves.push(trajectory.clone()));
                 }
             }
-            if self.lifts(&step)
+            if self.lifted(&step, &steps)
                 && let Some(judge) = &mut self.judge
             {
                 self.acted.grasped = Some(judge.grasped().map_err(|e| failed(e.to_string()))?);
@@ -132,51 +130,28 @@ impl Execution<'_> {
 
     /// Whether this is the step after which the object is judged to be held or not: the lift
     /// of the first stage, or its last step when it has none.
-    fn lifts(&self, step: &Step) -> bool {
-        let steps = &self.program.steps;
-        let of_first = |candidate: &&Step| candidate.stage == self.first();
-        let lift = steps.iter().filter(of_first).rfind(|step| step.purpose == "lift");
-        lift.or_else(|| steps.iter().rfind(of_first)) == Some(step)
+    fn lifted(&self, step: &Step, rest: &VecDeque<Step>) -> bool {
+        let mut to_come = rest.iter().filter(|next| next.stage == self.first());
+        self.acted.grasped.is_none()
+            && step.stage == self.first()
+            && (step.purpose == "lift" || to_come.next().is_none())
     }
 
-    /// After contact in `step`'s line: appends to `steps` the way on from where the arm now
-    /// is, and says how far from the key pose that is, metres.
-    fn plan_anew(
-        &mut self,
-        step: &Step,
-        carrying: bool,
-        steps: &mut VecDeque<Step>,
-    ) -> Result<f64, String> {
-        let (Self { robot, model, obstacles, key_poses, .. }, stage) = (&mut *self, &step.stage);
-        let state = robot.state().map_err(|e| e.to_string())?;
-        let here = model.tool_pose(&state.joints);
-        let ahead = key_poses.iter().skip_while(|key| key.stage != *stage);
+    /// After contact in `step`'s line: the way on from where the arm now is, where the
+    /// gripper does what it was to do at the key pose; and how far that is from here, metres.
+    fn replan(&mut self, step: &Step, holding: bool) -> Result<(VecDeque<Step>, f64), String> {
+        let state = self.robot.state().map_err(|e| e.to_string())?;
+        let here = self.model.tool_pose(&state.joints);
+        let ahead = self.key_poses.iter().skip_while(|key| key.stage != step.stage);
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
-        let Some(key) = ahead.first_mut() else { return Ok(0.0) };
+        let key = ahead.first_mut().ok_or("the program has a stage without a key pose")?;
         let short_m = difference(&here, &key.pose).0;
-        let (holding, opening_m) = match key.gripper.take() {
-            None => (carrying, state.opening_m),
-            Some(GripperCommand::Close { .. }) => (true, state.opening_m),
-            Some(GripperCommand::Open { opening_m }) => (false, opening_m),
-        };
-        *key = KeyPose {
-            pose: here,
-            approach_m: 0.0,
-            opening_m,
-            until_contact_n: None,
-            ..key.clone()
-        };
-        if ahead.len() == 1 && ahead[0].retreat_m == 0.0 && ahead[0].lift_m == 0.0 {
-            return Ok(short_m);
-        }
-        let start = &state.joints;
+        *key = KeyPose { pose: here, approach_m: 0.0, until_contact_n: None, ..key.clone() };
+        let (start, obstacles) = (&state.joints, self.obstacles);
         let task = MotionTask { start, holding, key_poses: &ahead, obstacles };
         let outcome = self.motion.plan(self.model, self.kinematics, &task);
         match outcome.map_err(|e| e.to_string())? {
-            MotionOutcome::Planned { program, .. } => {
-                steps.extend(program.steps);
-                Ok(short_m)
-            }
+            MotionOutcome::Planned { program, .. } => Ok((program.steps.into(), short_m)),
             MotionOutcome::Infeasible { stage, reason } => {
                 Err(format!("felt contact, and there is no way on from there: {stage}: {reason}"))
             }
@@ -184,7 +159,7 @@ impl Execution<'_> {
     }
 
     /// Opens the fingers and goes back the way the hand came.
-    fn go_back(&mut self, moves: Vec<JointTrajectory>) -> Result<(), String> {
+    fn retrace(&mut self, moves: Vec<JointTrajectory>) -> Result<(), String> {
         let opening_m = self.key_poses[0].opening_m;
         self.execute(&Action::Grip(GripperCommand::Open { opening_m }))?;
         for mut trajectory in moves.into_iter().rev() {

@@ -13,7 +13,8 @@
 //!
 //! A step that cannot do its work leaves [`Failed`], and the steps after it are passed over;
 //! judging and recording are not, so that every run ends with a verdict and a whole file.
-//! The schedule is single-threaded and chained; no step reads a clock but the one that is
+//! Observe to act are one schedule, made again when the hand closed on nothing; judge and record
+//! are another. Both are single-threaded and chained; no step reads a clock but the one that is
 //! handed in, and nothing of that goes into a recording.
 
 mod act;

@@ -40,7 +40,8 @@ pub struct Outcome {
     pub yaw_deg: Option<f64>,
     /// Why it failed, or by how much it succeeded.
     pub reason: String,
-    /// How each step and each stage of the skill ended, in order.
+    /// How each step and each stage of the skill ended, in order, those of every try. A try that
+    /// closed on nothing is told with `ok = false` in a run that may succeed all the same.
     pub stages: Vec<StageEvent>,
     /// Time of each step, in all tries together, by the clock that was handed in, milliseconds.
     #[serde(serialize_with = "timings")]

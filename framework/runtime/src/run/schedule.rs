@@ -15,11 +15,11 @@ use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
 /// From a look to what the robot did; once for every try.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Try;
+struct Attempt;
 
 /// The verdict and the recording.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Close;
+struct Conclude;
 
 /// A run that is over.
 pub struct Finished {
@@ -44,12 +44,12 @@ pub fn run(assignment: Assignment, plugins: Plugins, hooks: Hooks) -> Finished {
     let mut world = World::new();
     world.insert_non_send(Bench::new(plugins, hooks));
     let run = world.spawn(assignment).id();
-    let mut reach = reach();
-    reach.run(&mut world);
+    let mut attempt = attempt();
+    attempt.run(&mut world);
     while again(&mut world, run) {
-        reach.run(&mut world);
+        attempt.run(&mut world);
     }
-    close().run(&mut world);
+    conclude().run(&mut world);
     let bench: Bench = world.remove_non_send().expect("the bench was put there above");
     let outcome = Outcome::new(
         world.get::<Assignment>(run).expect("no step takes the assignment away"),
@@ -74,8 +74,8 @@ fn again(world: &mut World, run: Entity) -> bool {
 }
 
 /// The steps of one try, one after another on one thread.
-pub(super) fn reach() -> Schedule {
-    let mut schedule = Schedule::new(Try);
+pub(super) fn attempt() -> Schedule {
+    let mut schedule = Schedule::new(Attempt);
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.configure_sets(
         (Step::Observe, Step::Perceive, Step::Encode, Step::Transfer, Step::Plan, Step::Act)
@@ -93,8 +93,8 @@ pub(super) fn reach() -> Schedule {
 }
 
 /// The steps that every run ends with.
-pub(super) fn close() -> Schedule {
-    let mut schedule = Schedule::new(Close);
+pub(super) fn conclude() -> Schedule {
+    let mut schedule = Schedule::new(Conclude);
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.configure_sets((Step::Judge, Step::Record).chain());
     schedule.add_systems((judge::judge.in_set(Step::Judge), record::record.in_set(Step::Record)));

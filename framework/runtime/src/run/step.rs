@@ -51,7 +51,7 @@ pub struct StageEvent {
     /// How long it took: by the clock that was handed in for a step that thinks, by the
     /// robot's own time for a stage that moves.
     pub seconds: f64,
-    /// Why not, when it did not.
+    /// Why not, when it did not; where contact ended its line, when that is how it did.
     pub reason: Option<String>,
 }
 

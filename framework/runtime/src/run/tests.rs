@@ -24,7 +24,7 @@ fn names(outcome: &Outcome) -> Vec<&str> {
 
 #[test]
 fn the_steps_have_an_order_and_none_is_ambiguous() {
-    for mut schedule in [schedule::reach(), schedule::close()] {
+    for mut schedule in [schedule::attempt(), schedule::conclude()] {
         schedule.set_build_settings(ScheduleBuildSettings {
             ambiguity_detection: LogLevel::Error,
             ..Default::default()
@@ -140,7 +140,12 @@ fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
         let mut assignment = cell.assignment();
         assignment.tries = tries;
         let behaviour = Behaviour { misses, ..Behaviour::default() };
-        run(assignment, cell.plugins(behaviour), Hooks::default()).outcome
+        let mut now = 0.0;
+        let clock = Box::new(move || {
+            now += 0.5;
+            now
+        });
+        run(assignment, cell.plugins(behaviour), Hooks { clock, ..Hooks::default() }).outcome
     };
     let once = tried(1, 3);
     assert_eq!((once.tries, once.success, once.failed_at.clone()), (2, Some(true), None));
@@ -152,7 +157,8 @@ fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
         (missed.ok, missed.reason.as_deref()),
         (false, Some("closed on nothing, at 0.0 mm"))
     );
-    assert_eq!(once.timings_ms.len(), 7, "times of both tries are added");
+    assert_eq!(once.timings_ms.len(), 7);
+    assert!(once.timings_ms.contains(&(Step::Plan, 1000.0)), "times of both tries are added");
     // Approach, grip, open, and the approach again, backwards.
     assert!((missed.seconds - 4.0).abs() < 0.05, "{}", missed.seconds);
 
@@ -173,7 +179,8 @@ fn contact_ends_a_line_and_the_rest_is_planned_from_there() {
     let release = outcome.stages.iter().find(|stage| stage.name == "release").unwrap();
     let note = release.reason.as_deref().unwrap();
     assert!(release.ok && note.starts_with("contact ") && note.ends_with(" mm before the pose"));
-    // Approach and grip as planned, then approach and retreat of the new plan.
+    // Approach as planned, then approach, grip and retreat of the new plan, which the fake
+    // makes only for a hand that holds something.
     assert!((release.seconds - 4.0).abs() < 0.05, "{}", release.seconds);
     let behaviour = Behaviour { blocks_after: Some("release"), ..behaviour };
     let outcome = self::finished(&cell, behaviour).outcome;
