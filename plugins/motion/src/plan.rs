@@ -10,6 +10,7 @@ use crate::rrt::distance;
 use crate::script::Script;
 use crate::transit::{Style, transit};
 use crate::walk::{Walk, Walker};
+use seeone_core::pose::difference;
 use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{GripperCommand, IkQuery, IkStatus, KeyPose, Kinematics, MotionTask, Program};
@@ -18,8 +19,9 @@ use seeone_plugin::{GripperCommand, IkQuery, IkStatus, KeyPose, Kinematics, Moti
 /// that cannot be found costs more than everything else.
 const TRANSIT_SEARCHES: usize = 2;
 
-/// A posture this near to where the arm is needs no transit, radians.
-const HERE_RAD: f64 = 1e-4;
+/// An arm whose tool is this near to a pose stands there.
+const HERE_M: f64 = 1e-6;
+const HERE_RAD: f64 = 1e-6;
 
 /// A task with all that is needed to plan it.
 pub(crate) struct Plan<'a> {
@@ -82,7 +84,7 @@ impl<'a> Plan<'a> {
         for posture in self.postures(group, at)? {
             let entered = walker.walk(&posture).and_then(|walk| {
                 searches += 1;
-                if distance(at, &walk.entry) < HERE_RAD {
+                if at == walk.entry {
                     return Ok((vec![at.to_vec()], walk));
                 }
                 self.transit(group, at, &walk.entry)
@@ -101,9 +103,14 @@ impl<'a> Plan<'a> {
         Err(first_failure.unwrap_or_else(none))
     }
 
-    /// The postures in which the arm can stand at a group's first key pose, at least one.
+    /// The postures in which the arm can stand at a group's first key pose, at least one:
+    /// that in which it stands there already, or all.
     fn postures(&self, group: &Group<'a>, near: &[f64]) -> Result<Vec<Vec<f64>>, StageFailure> {
         let (pose, count) = (&group.keys[0].pose, self.config.branches);
+        let (distance_m, angle_rad) = difference(&self.robot.tool_pose(near), pose);
+        if group.keys[0].approach_m == 0.0 && distance_m < HERE_M && angle_rad < HERE_RAD {
+            return Ok(vec![near.to_vec()]);
+        }
         let postures = candidates(self.robot, self.kinematics, pose, near, count)
             .map_err(|failure| failure.at(group.stage(), "out of reach"))?;
         let walker = self.walker(group);

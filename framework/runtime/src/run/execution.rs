@@ -19,6 +19,9 @@ use std::collections::VecDeque;
 /// Between two snapshots of the object in the recording, seconds.
 const SNAPSHOT_PERIOD_S: f64 = 0.1;
 
+/// From where contact ended a line the whole retreat may be out of reach: so much of it is tried.
+const RETREAT_SHARES: [f64; 3] = [1.0, 0.75, 0.5];
+
 /// How a program ended that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
@@ -144,18 +147,27 @@ impl Execution<'_> {
         let here = self.model.tool_pose(&state.joints);
         let ahead = self.key_poses.iter().skip_while(|key| key.stage != step.stage);
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
-        let key = ahead.first_mut().ok_or("the program has a stage without a key pose")?;
+        let key = ahead.first().ok_or("the program has a stage without a key pose")?.clone();
         let short_m = difference(&here, &key.pose).0;
-        *key = KeyPose { pose: here, approach_m: 0.0, until_contact_n: None, ..key.clone() };
         let (start, obstacles) = (&state.joints, self.obstacles);
-        let task = MotionTask { start, holding, key_poses: &ahead, obstacles };
-        let outcome = self.motion.plan(self.model, self.kinematics, &task);
-        match outcome.map_err(|e| e.to_string())? {
-            MotionOutcome::Planned { program, .. } => Ok((program.steps.into(), short_m)),
-            MotionOutcome::Infeasible { stage, reason } => {
-                Err(format!("felt contact, and there is no way on from there: {stage}: {reason}"))
+        let mut refused = String::new();
+        for share in RETREAT_SHARES {
+            let retreat_m = key.retreat_m * share;
+            let (approach_m, until_contact_n) = (0.0, None);
+            ahead[0] =
+                KeyPose { pose: here, approach_m, until_contact_n, retreat_m, ..key.clone() };
+            let task = MotionTask { start, holding, key_poses: &ahead, obstacles };
+            let outcome = self.motion.plan(self.model, self.kinematics, &task);
+            match outcome.map_err(|e| e.to_string())? {
+                MotionOutcome::Planned { program, .. } => {
+                    return Ok((program.steps.into(), short_m));
+                }
+                MotionOutcome::Infeasible { stage, reason } => {
+                    refused = format!("{stage}: {reason}");
+                }
             }
         }
+        Err(format!("felt contact, and there is no way on from there: {refused}"))
     }
 
     /// Opens the fingers and goes back the way the hand came.
