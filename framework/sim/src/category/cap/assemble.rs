@@ -1,7 +1,7 @@
 //! From a shape to an object: crown, strap hole, brim, regions and materials.
 
 use super::crown::{self, Facet};
-use super::{CATEGORY, brim, shape::Shape};
+use super::{CATEGORY, Resolution, brim, shape::Shape};
 use crate::object::{Material, Object, Region};
 use nalgebra::Point3;
 use seeone_core::TriangleMesh;
@@ -10,21 +10,21 @@ use seeone_core::TriangleMesh;
 const STRUCTURED: f64 = 0.35;
 /// A strap hole narrower than this is none.
 const SMALLEST_STRAP_HOLE_M: f64 = 0.02;
-/// Height of the strap hole in rings.
-const STRAP_HOLE_RINGS: f64 = 2.6;
+/// Height of the strap hole, as a part of the way from the hem to the apex.
+const STRAP_HOLE_HEIGHT: f64 = 2.6 / 11.0;
 
 /// The cap of this shape at rest, in the canonical orientation: z up, brim along +y.
-pub fn assemble(name: &str, shape: &Shape) -> Object {
-    let mut vertices = crown::vertices(shape);
+pub fn assemble(name: &str, shape: &Shape, resolution: Resolution) -> Object {
+    let mut vertices = crown::vertices(shape, resolution);
     let mut triangles = Vec::new();
     let mut regions = Vec::new();
-    for facet in crown::facets() {
-        if !in_strap_hole(shape, &facet, &vertices) {
+    for facet in crown::facets(resolution) {
+        if !in_strap_hole(shape, resolution, &facet, &vertices) {
             triangles.push(facet.triangle);
-            regions.push(crown_region(shape, &facet));
+            regions.push(crown_region(shape, resolution, &facet));
         }
     }
-    let brim = brim::build(shape, &vertices);
+    let brim = brim::build(shape, resolution, &vertices);
     vertices.extend(brim.vertices);
     regions.resize(regions.len() + brim.triangles.len(), Region::Brim);
     triangles.extend(brim.triangles);
@@ -36,19 +36,24 @@ pub fn assemble(name: &str, shape: &Shape) -> Object {
 }
 
 /// The strap hole is half an ellipse above the band of the last ring.
-fn in_strap_hole(shape: &Shape, facet: &Facet, vertices: &[Point3<f64>]) -> bool {
+fn in_strap_hole(
+    shape: &Shape,
+    resolution: Resolution,
+    facet: &Facet,
+    vertices: &[Point3<f64>],
+) -> bool {
     let corners = facet.triangle.map(|v| vertices[v as usize].coords);
     let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
     let half_width = shape.strap_hole;
-    if half_width < SMALLEST_STRAP_HOLE_M || facet.ring == crown::RINGS || centre.y > 0.0 {
+    if half_width < SMALLEST_STRAP_HOLE_M || facet.ring == resolution.rings() || centre.y > 0.0 {
         return false;
     }
-    let rings_up = (crown::RINGS - 1) as f64 - (facet.ring as f64 - 0.5);
-    (centre.x / half_width).powi(2) + (rings_up / STRAP_HOLE_RINGS).powi(2) < 1.0
+    let up = (resolution.rings() as f64 - 0.5 - facet.ring as f64) / resolution.rings() as f64;
+    (centre.x / half_width).powi(2) + (up / STRAP_HOLE_HEIGHT).powi(2) < 1.0
 }
 
-fn crown_region(shape: &Shape, facet: &Facet) -> Region {
-    if facet.ring == crown::RINGS {
+fn crown_region(shape: &Shape, resolution: Resolution, facet: &Facet) -> Region {
+    if facet.ring == resolution.rings() {
         Region::Hem
     } else if shape.front_structure > STRUCTURED && matches!(facet.panel, 0 | 5) {
         Region::Front

@@ -1,11 +1,9 @@
-//! The brim: a sheet of [`ROWS`] rows that grows from the front of the hem.
+//! The brim: a sheet of rows that grows from the front of the hem.
 
-use super::crown::{HEM, hem_angle, hem_vertex};
+use super::crown::hem_angle;
+use super::resolution::Resolution;
 use super::shape::Shape;
 use nalgebra::{Point3, Vector3};
-
-/// Rows of vertices beyond the hem.
-pub const ROWS: usize = 5;
 
 /// The brim's own vertices and its triangles, which share the hem's vertices.
 pub struct Brim {
@@ -16,39 +14,39 @@ pub struct Brim {
 }
 
 /// Hem vertices on each side of the front that the brim reaches.
-fn reach(shape: &Shape) -> isize {
-    (shape.brim_half_angle / hem_angle(1)).round() as isize
+fn reach(shape: &Shape, resolution: Resolution) -> isize {
+    (shape.brim_half_angle / hem_angle(resolution, 1)).round() as isize
 }
 
 /// Builds the brim on a finished crown.
 ///
 /// The outline closes onto the hem at both ends, so the outermost columns are a fan: a
 /// column of vanishing length would give edges too short to simulate.
-pub fn build(shape: &Shape, crown: &[Point3<f64>]) -> Brim {
-    let reach = reach(shape);
+pub fn build(shape: &Shape, resolution: Resolution, crown: &[Point3<f64>]) -> Brim {
+    let reach = reach(shape, resolution);
+    let rows = resolution.brim_rows();
+    let on_hem = |j| crown[resolution.hem_vertex(j)];
     let columns: Vec<isize> = (1 - reach..reach).collect();
-    let half_width = crown[hem_vertex(reach)].x.abs().max(crown[hem_vertex(reach / 2)].x.abs());
-    let mut vertices = Vec::with_capacity(columns.len() * ROWS);
+    let half_width = on_hem(reach).x.abs().max(on_hem(reach / 2).x.abs());
+    let mut vertices = Vec::with_capacity(columns.len() * rows);
     for &j in &columns {
         let across = j as f64 / reach as f64;
-        for row in 1..=ROWS {
-            let along = row as f64 / ROWS as f64;
-            vertices.push(point(shape, crown, j, across, along, half_width));
+        let tangent = on_hem(j + 1) - on_hem(j - 1);
+        for row in 1..=rows {
+            let along = row as f64 / rows as f64;
+            vertices.push(point(shape, on_hem(j), &tangent, [across, along], half_width));
         }
     }
-    Brim { vertices, triangles: triangles(crown.len(), &columns) }
+    Brim { vertices, triangles: triangles(resolution, crown.len(), &columns) }
 }
 
 fn point(
     shape: &Shape,
-    crown: &[Point3<f64>],
-    j: isize,
-    across: f64,
-    along: f64,
+    start: Point3<f64>,
+    tangent: &Vector3<f64>,
+    [across, along]: [f64; 2],
     half_width: f64,
 ) -> Point3<f64> {
-    let start = crown[hem_vertex(j)];
-    let tangent = crown[hem_vertex(j + 1)] - crown[hem_vertex(j - 1)];
     let away = Vector3::new(tangent.y, -tangent.x, 0.0).normalize();
     let heading = away.lerp(&Vector3::y(), shape.brim_forwardness).normalize();
     let length = shape.brim_length * (1.0 - across.abs().powf(shape.brim_squareness)).powf(0.6);
@@ -60,17 +58,18 @@ fn point(
     p
 }
 
-fn triangles(crown_vertices: usize, columns: &[isize]) -> Vec<[u32; 3]> {
+fn triangles(resolution: Resolution, crown_vertices: usize, columns: &[isize]) -> Vec<[u32; 3]> {
+    let rows = resolution.brim_rows();
     let vertex = |column: usize, row: usize| {
         if row == 0 {
-            hem_vertex(columns[column]) as u32
+            resolution.hem_vertex(columns[column]) as u32
         } else {
-            (crown_vertices + column * ROWS + row - 1) as u32
+            (crown_vertices + column * rows + row - 1) as u32
         }
     };
     let mut all = Vec::new();
     for column in 0..columns.len() - 1 {
-        for row in 0..ROWS {
+        for row in 0..rows {
             let [a, b] = [vertex(column, row), vertex(column + 1, row)];
             let [c, d] = [vertex(column, row + 1), vertex(column + 1, row + 1)];
             // The diagonal leans the same way on both sides of the middle.
@@ -82,11 +81,14 @@ fn triangles(crown_vertices: usize, columns: &[isize]) -> Vec<[u32; 3]> {
         }
     }
     let last = columns.len() - 1;
-    let (right, left) = (hem_vertex(columns[0] - 1) as u32, hem_vertex(columns[last] + 1) as u32);
-    for row in 0..ROWS {
+    let (right, left) = (
+        resolution.hem_vertex(columns[0] - 1) as u32,
+        resolution.hem_vertex(columns[last] + 1) as u32,
+    );
+    for row in 0..rows {
         all.push([vertex(0, row), right, vertex(0, row + 1)]);
         all.push([vertex(last, row), vertex(last, row + 1), left]);
     }
-    debug_assert!(columns.len() < HEM, "a brim does not overlap itself");
+    debug_assert!(columns.len() < resolution.hem(), "a brim does not overlap itself");
     all
 }

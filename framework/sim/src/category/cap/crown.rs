@@ -3,37 +3,24 @@
 //! Ring `k` of the disc has `6 k` vertices, so that no edge near the apex is shorter than
 //! at the hem, as it would be in a polar grid, and six natural panels appear.
 
+use super::resolution::{Resolution, first_of_ring};
 use super::shape::Shape;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Rings of the disc; the last is the hem.
-pub const RINGS: usize = 11;
-/// Vertices of the hem.
-pub const HEM: usize = 6 * RINGS;
 /// Steps of the table that turns arc length into a place on the profile.
 const ARC_STEPS: usize = 240;
 
-/// Index of the first vertex of `ring`.
-pub const fn first_of_ring(ring: usize) -> usize {
-    if ring == 0 { 0 } else { 1 + 3 * ring * (ring - 1) }
-}
-
-/// Index of hem vertex `j`, counted from the front towards the left, any integer.
-pub fn hem_vertex(j: isize) -> usize {
-    first_of_ring(RINGS) + j.rem_euclid(HEM as isize) as usize
-}
-
 /// Angle of hem vertex `j` about z: 0 is the front (+y), growing towards the left (-x).
-pub fn hem_angle(j: isize) -> f64 {
-    TAU * j as f64 / HEM as f64
+pub fn hem_angle(resolution: Resolution, j: isize) -> f64 {
+    TAU * j as f64 / resolution.hem() as f64
 }
 
 /// A triangle of the disc.
 pub struct Facet {
     /// Its vertices, counter-clockwise from above.
     pub triangle: [u32; 3],
-    /// The ring on its outer side, `1..=RINGS`.
+    /// The ring on its outer side, counted from 1.
     pub ring: usize,
     /// Its panel: the sixth of the disc in which it lies, counted from the front towards
     /// the left. Panels 0 and 5 meet at the front seam.
@@ -41,9 +28,9 @@ pub struct Facet {
 }
 
 /// The triangles of the disc.
-pub fn facets() -> Vec<Facet> {
+pub fn facets(resolution: Resolution) -> Vec<Facet> {
     let mut all = Vec::new();
-    for ring in 1..=RINGS {
+    for ring in 1..=resolution.rings() {
         let outer = |i: usize| (first_of_ring(ring) + i % (6 * ring)) as u32;
         let inner = |i: usize| (first_of_ring(ring - 1) + i % (6 * (ring - 1)).max(1)) as u32;
         for panel in 0..6 {
@@ -61,13 +48,14 @@ pub fn facets() -> Vec<Facet> {
 }
 
 /// The vertices of the dome in metres, ring by ring.
-pub fn vertices(shape: &Shape) -> Vec<Point3<f64>> {
-    let scale = hem_scale(shape);
-    let mut all = Vec::with_capacity(first_of_ring(RINGS + 1));
-    for ring in 0..=RINGS {
+pub fn vertices(shape: &Shape, resolution: Resolution) -> Vec<Point3<f64>> {
+    let rings = resolution.rings();
+    let scale = hem_scale(shape, resolution);
+    let mut all = Vec::with_capacity(first_of_ring(rings + 1));
+    for ring in 0..=rings {
         for i in 0..(6 * ring).max(1) {
             let angle = TAU * i as f64 / (6 * ring).max(1) as f64;
-            all.push(dome_point(shape, scale, ring as f64 / RINGS as f64, angle));
+            all.push(dome_point(shape, scale, ring as f64 / rings as f64, angle));
         }
     }
     all[0].z += shape.button;
@@ -81,10 +69,10 @@ fn oval(shape: &Shape, angle: f64) -> Vector3<f64> {
 }
 
 /// Metres per unit of [`oval`] that give the hem its circumference.
-fn hem_scale(shape: &Shape) -> f64 {
-    let around: f64 = (0..HEM as isize)
-        .map(|j| (oval(shape, hem_angle(j + 1)) - oval(shape, hem_angle(j))).norm())
-        .sum();
+fn hem_scale(shape: &Shape, resolution: Resolution) -> f64 {
+    let point = |j| oval(shape, hem_angle(resolution, j));
+    let around: f64 =
+        (0..resolution.hem() as isize).map(|j| (point(j + 1) - point(j)).norm()).sum();
     shape.circumference / around
 }
 

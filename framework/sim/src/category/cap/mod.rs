@@ -7,12 +7,14 @@
 mod assemble;
 pub mod brim;
 pub mod crown;
+mod resolution;
 pub mod shape;
 
 use crate::object::Object;
 use shape::{Shape, latin_hypercube};
 
 pub use assemble::assemble;
+pub use resolution::Resolution;
 
 /// The category's name.
 pub const CATEGORY: &str = "cap";
@@ -70,9 +72,14 @@ pub fn names(set: Set) -> Vec<String> {
 
 /// The cap of this name, or nothing when there is none.
 pub fn named(name: &str) -> Option<Object> {
+    named_at(name, Resolution::default())
+}
+
+/// The cap of this name meshed at `resolution`, or nothing when there is none.
+pub fn named_at(name: &str, resolution: Resolution) -> Option<Object> {
     Set::ALL.into_iter().find_map(|set| {
         let number = (0..set.size().0).find(|i| set.name_of(*i) == name)?;
-        Some(assemble(name, &set.shapes()[number]))
+        Some(assemble(name, &set.shapes()[number], resolution))
     })
 }
 
@@ -84,13 +91,14 @@ mod tests {
 
     /// Points at the same places of the pattern on every cap, in units of its length.
     fn pattern(shape: &Shape) -> Vec<Point3<f64>> {
-        let crown = crown::vertices(shape);
-        let brim = brim::build(shape, &crown).vertices;
-        let columns = brim.len() / brim::ROWS;
-        let at = |part: f64| ((columns - 1) as f64 * part).round() as usize * brim::ROWS;
+        let crown = crown::vertices(shape, Resolution::default());
+        let rows = Resolution::default().brim_rows();
+        let brim = brim::build(shape, Resolution::default(), &crown).vertices;
+        let columns = brim.len() / rows;
+        let at = |part: f64| ((columns - 1) as f64 * part).round() as usize * rows;
         let samples = (0..=8).flat_map(|c| {
             let first = at(f64::from(c) / 8.0);
-            brim[first..first + brim::ROWS].to_vec()
+            brim[first..first + rows].to_vec()
         });
         let all: Vec<Point3<f64>> = crown.iter().copied().chain(samples).collect();
         let length = all.iter().map(|p| p.y).fold(0.0, f64::max) * 2.0;
@@ -129,6 +137,22 @@ mod tests {
             }
         }
         assert!(named("cap-train-100").is_none() && named("hat").is_none());
+    }
+
+    #[test]
+    fn a_finer_cap_is_the_same_cap() {
+        let count = |o: &Object| o.mesh().vertices().len();
+        let coarse = named_at("cap-unseen-03", Resolution::COARSE).expect("a cap");
+        let fine = named_at("cap-unseen-03", Resolution::FINE).expect("a cap");
+        let finest = named_at("cap-unseen-03", Resolution::FINEST).expect("a cap");
+        assert!((230..310).contains(&count(&coarse)), "{}", count(&coarse));
+        assert!((900..1150).contains(&count(&fine)), "{}", count(&fine));
+        assert!((1800..2300).contains(&count(&finest)), "{}", count(&finest));
+        let (mass, size) = (fine.mass(), fine.mesh().diameter());
+        for other in [&coarse, &finest, &named("cap-unseen-03").expect("a cap")] {
+            assert!((other.mass() / mass - 1.0).abs() < 0.08, "{} against {mass}", other.mass());
+            assert!((other.mesh().diameter() / size - 1.0).abs() < 0.03);
+        }
     }
 
     /// The longest edges are those of the fans that close the brim's ends.
