@@ -2,15 +2,15 @@
 //! with the plugins, and read by the judge.
 
 use anyhow::{Result, anyhow};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use seeone_core::Diagnostic;
 use seeone_core::random::generator;
 use seeone_plugin::{Judge, Measure, PluginError, Verdict, WorldHandle};
 use seeone_runtime::files::Scene;
+use seeone_sim::WearError;
 use seeone_sim::cell::Cell;
 use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
-use seeone_sim::rigid_fit::rigid_fit;
 use seeone_sim::surroundings::{Frictions, HEAD_SEMI_AXES_M, Head, Surroundings};
 use seeone_sim::world::Settings;
 use seeone_sim::worn::{Worn, worn};
@@ -118,15 +118,8 @@ impl Judge for CellJudge {
             let to_head = self.head.pose.inverse();
             (at_rest, cell.vertices().iter().map(|v| to_head * v).collect::<Vec<_>>())
         };
-        let target = &self.worn.vertices;
-        let error_m = reached.iter().zip(target).map(|(a, b)| (a - b).norm()).sum::<f64>()
-            / target.len() as f64;
-        let error_d = error_m / self.worn.diameter_m;
-        let turn = rigid_fit(target, &reached).rotation;
-        let up = turn * Vector3::z();
-        let forward = turn * Vector3::y();
-        let tilt_deg = up.angle(&Vector3::z()).to_degrees();
-        let yaw_deg = (-forward.x).atan2(forward.y).to_degrees();
+        let WearError { mean_m: error_m, mean_d: error_d, tilt_deg, yaw_deg } =
+            WearError::of(&self.worn, &reached);
         let success = grasped && at_rest && error_d < tolerance_d;
         let placed =
             format!("{error_d:.3} d from worn, tilted {tilt_deg:.0}, turned {yaw_deg:.0} degrees");

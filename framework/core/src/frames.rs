@@ -50,6 +50,9 @@ pub struct CanonicalObject {
     pub triangles: Vec<[u32; 3]>,
     /// Metres per canonical unit.
     pub edge_m: f64,
+    /// Whether its turn about the cube's z axis is arbitrary, as a bucket hat's is.
+    #[serde(default)]
+    pub round: bool,
 }
 
 impl CanonicalObject {

@@ -20,11 +20,13 @@ pub mod segmentation;
 mod self_contact;
 mod shell;
 pub mod surroundings;
+pub mod wearing;
 pub mod world;
 pub mod worn;
 
 pub use contact::ellipsoid::Ellipsoid;
 pub use hand::{Hand, HandState};
-pub use object::{Material, Object, ObjectFault, Region};
+pub use object::{Material, Object, ObjectFault, Region, Symmetry};
 pub use surroundings::{Frictions, Head, Surroundings};
+pub use wearing::WearError;
 pub use world::{Settings, Settled, World};

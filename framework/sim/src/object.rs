@@ -1,6 +1,7 @@
 //! A deformable object: its rest shape, what it is made of, and where.
 
 use seeone_core::TriangleMesh;
+use serde::{Deserialize, Serialize};
 
 /// Which part of a cap a triangle belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,6 +37,24 @@ pub struct Material {
     pub thickness_m: f64,
 }
 
+/// What can be turned about the object's z axis without being another state of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Symmetry {
+    /// Nothing: it has a front.
+    #[default]
+    None,
+    /// All of it: a hat whose front nobody could name.
+    Round,
+}
+
+impl Symmetry {
+    /// Whether it has a front.
+    pub fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+}
+
 /// Why numbers do not describe an object.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ObjectFault {
@@ -67,6 +86,7 @@ pub struct Object {
     regions: Vec<Region>,
     materials: [Material; 4],
     softness_hz: f64,
+    symmetry: Symmetry,
 }
 
 impl Object {
@@ -105,11 +125,23 @@ impl Object {
             regions,
             materials,
             softness_hz,
+            symmetry: Symmetry::None,
         };
         match object.vertex_masses().iter().position(|m| *m <= 0.0) {
             Some(vertex) => Err(ObjectFault::LooseVertex(vertex)),
             None => Ok(object),
         }
+    }
+
+    /// The same object with this symmetry; [`Self::new`] gives none.
+    #[must_use]
+    pub fn with_symmetry(self, symmetry: Symmetry) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// What can be turned about z without being another state of it.
+    pub fn symmetry(&self) -> Symmetry {
+        self.symmetry
     }
 
     /// Its name, unique within a set.

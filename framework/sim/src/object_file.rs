@@ -1,6 +1,6 @@
 //! Objects as files: TOML, one table an object, at most 1 MiB.
 
-use crate::object::{Material, Object, ObjectFault, Region};
+use crate::object::{Material, Object, ObjectFault, Region, Symmetry};
 use nalgebra::Point3;
 use seeone_core::TriangleMesh;
 use seeone_core::mesh::MeshFault;
@@ -39,6 +39,8 @@ struct Fields {
     name: String,
     category: String,
     softness_hz: f64,
+    #[serde(default, skip_serializing_if = "Symmetry::is_none")]
+    symmetry: Symmetry,
     /// One letter for each triangle.
     regions: String,
     vertices_m: Vec<[f64; 3]>,
@@ -88,6 +90,7 @@ pub fn to_toml(object: &Object) -> Result<String, toml::ser::Error> {
         name: object.name().to_owned(),
         category: object.category().to_owned(),
         softness_hz: object.softness_hz(),
+        symmetry: object.symmetry(),
         regions: object.regions().iter().map(|r| letter(*r)).collect(),
         vertices_m: object.mesh().vertices().iter().map(|v| v.coords.into()).collect(),
         triangles: object.mesh().triangles().to_vec(),
@@ -114,7 +117,9 @@ pub fn from_toml(text: &str) -> Result<Object, ObjectFileFault> {
     let vertices = fields.vertices_m.into_iter().map(Point3::from).collect();
     let mesh = TriangleMesh::new(vertices, fields.triangles)?;
     let materials = [fields.crown, fields.front, fields.brim, fields.hem].map(Material::from);
-    Ok(Object::new(fields.name, fields.category, mesh, regions, materials, fields.softness_hz)?)
+    let (name, softness_hz) = (fields.name, fields.softness_hz);
+    let object = Object::new(name, fields.category, mesh, regions, materials, softness_hz)?;
+    Ok(object.with_symmetry(fields.symmetry))
 }
 
 fn letter(region: Region) -> char {
@@ -145,6 +150,15 @@ mod tests {
         let text = text();
         assert!(text.len() < LARGEST_FILE / 4, "{} bytes", text.len());
         assert_eq!(from_toml(&text).expect("read"), cap::named("cap-unseen-03").expect("a cap"));
+    }
+
+    #[test]
+    fn a_round_hat_stays_round_and_others_do_not_speak_of_it() {
+        let hat = cap::named("cap-unseen-03").expect("a cap").with_symmetry(Symmetry::Round);
+        let text = to_toml(&hat).expect("TOML");
+        assert!(text.contains("symmetry = \"round\""));
+        assert_eq!(from_toml(&text).expect("read"), hat);
+        assert!(!to_toml(&hat.with_symmetry(Symmetry::None)).expect("TOML").contains("symmetry"));
     }
 
     #[test]

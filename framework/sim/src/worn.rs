@@ -1,7 +1,7 @@
 //! The worn state: where a cap's vertices lie when it sits correctly on the head. It is the
 //! canonical state of the category, and what a wearing is judged against.
 
-use crate::object::{Object, Region};
+use crate::object::{Object, Region, Symmetry};
 use crate::surroundings::{Head, Surroundings};
 use crate::world::{Settings, World};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
@@ -111,6 +111,7 @@ fn canonical(object: &Object, vertices: &[Point3<f64>]) -> (CanonicalObject, Sim
         vertices: vertices.iter().map(|v| ((v.coords - centre) / edge_m + half).into()).collect(),
         triangles: object.mesh().triangles().to_vec(),
         edge_m,
+        round: object.symmetry() == Symmetry::Round,
     };
     let to_head = Similarity::from_parts(
         Translation3::from(centre - half * edge_m),

@@ -151,6 +151,7 @@ mod tests {
                 vertices: mesh.vertices().iter().map(|v| [v.x, v.y, v.z]).collect(),
                 triangles: mesh.triangles().to_vec(),
                 edge_m: 0.28,
+                round: false,
             }
         });
         let infos: Vec<FrameInfo> = (0..8).map(info).collect();

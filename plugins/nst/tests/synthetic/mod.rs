@@ -82,6 +82,7 @@ pub fn write(folder: &Path, objects: usize, drops: usize) {
             vertices: (0..60).map(|i| corner(i).add_scalar(0.5).into()).collect(),
             triangles: (0..20).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
             edge_m: shape.edge(),
+            round: false,
         });
         index.shards.push(frames.iter().map(|f| f.info.clone()).collect());
         write_shard(folder, object, &frames).expect("a shard");
