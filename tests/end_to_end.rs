@@ -223,6 +223,14 @@ fn a_cap_made_by_others_is_imported_and_tried() {
     let attempt = Attempt::new(&["--object", &object]);
     assert_eq!(attempt.outcome["object"], "baseball_cap_danlyvostok");
     assert!(attempt.stage("perceive").is_some_and(|stage| stage["ok"] == true));
+    let set = folder.path().join("set").display().to_string();
+    let data = ["data", "--objects", &object, "--frames", "9", "--out", &set, "--json"];
+    let made = seeone(data);
+    assert_eq!(made.status, Some(0), "{}", made.stderr);
+    let made: Value = serde_json::from_str(&made.stdout).expect("one JSON object");
+    let count = |moment: &str| made[moment].as_u64().expect("a count");
+    assert_eq!(count("falling") + count("resting") + count("held"), 9, "{made}");
+    assert!(count("held") > 0, "{made}");
 }
 
 #[test]

@@ -33,12 +33,13 @@ fn a_wrong_flag_is_told() {
 fn numbers_that_make_no_sense_are_told() {
     let bench = Bench::new();
     let (skill, out) = (bench.arg(SKILL), bench.arg("out"));
-    let cases: [(&[&str], &str); 8] = [
+    let cases: [(&[&str], &str); 9] = [
         (&["eval", &skill, "--attempts", "0"], "--attempts"),
         (&["eval", &skill, "--first-seed", "18446744073709551615"], "--first-seed"),
         (&["eval", &skill, "--jobs", "many"], "--jobs"),
         (&["run", &skill, "--tries", "0"], "--tries"),
-        (&["data", "--out", &out, "--drops", "0"], "--drops"),
+        (&["data", "--out", &out, "--frames", "0"], "--frames"),
+        (&["data", "--out", &out, "--views", "5"], "--views"),
         (&["train", "nst", "--out", &out, "--share", "nan"], "--share"),
         (&["train", "nst", "--out", &out, "--share", "-1"], "--share"),
         (&["train", "all", "--out", &out, "--share", "1e300"], "--share"),

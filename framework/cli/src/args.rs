@@ -3,7 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use seeone_plugin::Kind;
 use seeone_runtime::methods::parse_override;
-use std::num::{ParseFloatError, ParseIntError};
+use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 use std::path::PathBuf;
 
 /// See one, do many: a robot watches one manipulation of one deformable object and does
@@ -192,9 +192,15 @@ pub struct DataArgs {
     /// `train`, `validation`, `unseen`, a name, or a file from `objects import`.
     #[arg(long, default_value = "train")]
     pub objects: String,
-    /// Drops of each object.
-    #[arg(long, default_value_t = 12, value_parser = drops)]
-    pub drops: usize,
+    /// Frames in all, shared evenly by the objects.
+    #[arg(long, default_value_t = FRAMES, value_parser = frames)]
+    pub frames: NonZeroUsize,
+    /// Views of each moment, 1 to 4.
+    #[arg(long, default_value_t = VIEWS, value_parser = views)]
+    pub views: NonZeroUsize,
+    /// What was made, as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What to train.
@@ -254,11 +260,22 @@ pub enum PluginsAction {
     },
 }
 
-fn drops(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(0) => Err("an object that is never dropped gives no frames".into()),
-        other => other.map_err(|e: ParseIntError| e.to_string()),
-    }
+/// Frames of a training set unless told otherwise.
+const FRAMES: NonZeroUsize = NonZeroUsize::new(4000).expect("not zero");
+/// Views of a moment unless told otherwise: more drops teach more than more views of one.
+const VIEWS: NonZeroUsize = NonZeroUsize::new(2).expect("not zero");
+/// Most views of a moment.
+const MOST_VIEWS: usize = 4;
+
+fn frames(text: &str) -> Result<NonZeroUsize, String> {
+    let frames: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;
+    NonZeroUsize::new(frames).ok_or_else(|| "a set of no frames teaches nothing".into())
+}
+
+fn views(text: &str) -> Result<NonZeroUsize, String> {
+    let views: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;
+    let some = NonZeroUsize::new(views).filter(|_| views <= MOST_VIEWS);
+    some.ok_or_else(|| format!("not from 1 to {MOST_VIEWS}"))
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -4,6 +4,7 @@
 //! A folder of `index.json` (what, with which seed) and `frames-NNNN.safetensors` shards.
 //! A shard is written to a temporary name and renamed, so that what is there is whole.
 
+use crate::pose::PoseFields;
 use crate::{Diagnostic, TriangleMesh};
 use nalgebra::Point3;
 use safetensors::tensor::TensorView;
@@ -12,6 +13,21 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+
+/// The version of the format.
+pub const SCHEMA: u32 = 2;
+
+/// What the object was doing when it was seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Moment {
+    /// Falling, bouncing or still rocking.
+    Falling,
+    /// Lying still on the mat.
+    Resting,
+    /// Hanging from a gripper that stands still.
+    Held,
+}
 
 /// One view of one object at one moment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,10 +38,20 @@ pub struct FrameInfo {
     pub drop: usize,
     /// Seconds since it was let go.
     pub seconds: f64,
-    /// Whether it had come to rest.
-    pub settled: bool,
-    /// The camera's position in `world`, metres.
-    pub camera_xyz_m: [f64; 3],
+    /// What it was doing.
+    pub moment: Moment,
+    /// The camera in `world`: z along the view, y down the image.
+    pub camera: PoseFields,
+    /// The rigid pose that carries the canonical shape, centred and in metres
+    /// (`edge_m (nocs - 1/2)`), nearest to the object as it is, in `world`.
+    pub object_pose: PoseFields,
+}
+
+impl FrameInfo {
+    /// Whether the object lies still on the mat.
+    pub fn at_rest(&self) -> bool {
+        self.moment == Moment::Resting
+    }
 }
 
 /// A view with its points.
@@ -69,7 +95,7 @@ impl CanonicalObject {
 /// What a training set holds and how it was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Index {
-    /// Format version, 1.
+    /// Format version, [`SCHEMA`].
     pub schema: u32,
     /// Seed of every draw.
     pub seed: u64,
@@ -79,6 +105,12 @@ pub struct Index {
     pub objects: Vec<CanonicalObject>,
     /// Frames of each shard, in order.
     pub shards: Vec<Vec<FrameInfo>>,
+}
+
+/// What is read of an index before its version is known.
+#[derive(Deserialize)]
+struct Version {
+    schema: u32,
 }
 
 /// Name of shard `number` inside its folder.
@@ -194,11 +226,14 @@ pub fn read_index(folder: &Path) -> Result<Index, Diagnostic> {
     let path = folder.join("index.json");
     let text = fs::read(&path)
         .map_err(|e| fault(&path, e).hint("make one with `seeone data --out DIR`"))?;
-    let index: Index = serde_json::from_slice(&text)
-        .map_err(|e| fault(&path, &e).at_line(&path, e.line().max(1), e.column().max(1)))?;
-    if index.schema != 1 {
-        return Err(fault(&path, format!("schema {} is not known, only 1", index.schema)));
+    let located =
+        |e: serde_json::Error| fault(&path, &e).at_line(&path, e.line().max(1), e.column().max(1));
+    let version: Version = serde_json::from_slice(&text).map_err(located)?;
+    if version.schema != SCHEMA {
+        let cause = format!("schema {} is not known, only {SCHEMA}", version.schema);
+        return Err(fault(&path, cause).hint("make the set anew with `seeone data --out DIR`"));
     }
+    let index: Index = serde_json::from_slice(&text).map_err(located)?;
     Ok(index)
 }
 
@@ -223,6 +258,16 @@ pub fn read_all(folder: &Path) -> Result<(Index, Vec<Frame>), Diagnostic> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Pose;
+
+    #[test]
+    fn an_index_of_another_version_is_refused_by_its_number() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("index.json"), r#"{"schema": 1, "settled": true}"#)
+            .expect("written");
+        let refused = read_index(folder.path()).expect_err("an old index").to_string();
+        assert!(refused.contains("schema 1 is not known"), "{refused}");
+    }
 
     #[test]
     fn a_shard_survives_and_a_truncated_one_is_refused() {
@@ -231,8 +276,9 @@ mod tests {
             object: 0,
             drop: 3,
             seconds: 1.5,
-            settled: true,
-            camera_xyz_m: [0.0, -0.5, 0.5],
+            moment: Moment::Held,
+            camera: (&Pose::translation(0.0, -0.5, 0.5)).into(),
+            object_pose: (&Pose::identity()).into(),
         };
         let frames = vec![
             Frame {

@@ -1,5 +1,5 @@
 //! Generates a training set and tells how long it took:
-//! `make_dataset FOLDER CAPS DROPS VIEWS`
+//! `make_dataset FOLDER CAPS FRAMES VIEWS`
 
 use seeone_sim::category::cap::{self, Set};
 use seeone_sim::dataset::{Plan, generate};
@@ -10,14 +10,14 @@ use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, caps, drops, views] = arguments.as_slice() else {
-        return Err("usage: make_dataset FOLDER CAPS DROPS VIEWS".into());
+    let [folder, caps, frames, views] = arguments.as_slice() else {
+        return Err("usage: make_dataset FOLDER CAPS FRAMES VIEWS".into());
     };
     std::fs::create_dir_all(folder)?;
     let names = cap::names(Set::Train).into_iter().take(caps.parse()?);
     let plan = Plan {
         objects: names.filter_map(|n| cap::named(&n)).collect(),
-        drops_per_object: drops.parse()?,
+        frames: frames.parse()?,
         views: views.parse()?,
         seed: 1,
         command: format!("make_dataset {}", arguments.join(" ")),
@@ -25,11 +25,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let summary = generate(&plan, Path::new(folder), &|_| ())?;
     let seconds = start.elapsed().as_secs_f64();
-    let made = plan.objects.len() * plan.drops_per_object;
     writeln!(
         std::io::stdout(),
-        "{summary:?} in {seconds:.1} s, {:.2} s a drop",
-        seconds / made as f64
+        "{summary:?} in {seconds:.1} s, {:.2} s a frame",
+        seconds / summary.frames() as f64
     )?;
     Ok(())
 }

@@ -1,12 +1,16 @@
 //! A virtual stereo depth camera with the faults of a real one (Intel RealSense D435i).
 
+mod stereo;
+
 use crate::raster::{Hit, Raster, rasterize};
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
-use seeone_core::random::normal;
+use seeone_core::random::{normal, uniform};
 use seeone_core::{DepthImage, Intrinsics, Pose, TriangleMesh};
+use stereo::SecondImager;
 
-/// Depth stream of a D435i at 640 x 480.
+/// Depth stream of a D435i at 640 x 480, as the cameras report it (librealsense issue 8689:
+/// `fx = fy = 384.2`).
 pub const D435I: Intrinsics =
     Intrinsics { width: 640, height: 480, fx: 384.0, fy: 384.0, cx: 319.5, cy: 239.5 };
 
@@ -14,20 +18,26 @@ pub const D435I: Intrinsics =
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// Standard deviation of the disparity, pixels; the axial error is
-    /// `Z^2 s / (f B)` (Intel's figures: 0.03 at best, 0.08 as a rule).
+    /// `Z^2 s / (f B)` (Intel, "Tuning depth cameras for best performance", and
+    /// librealsense issue 3904: 0.03 at best, 0.08 as a rule).
     pub disparity_px: f64,
-    /// Distance of the two imagers, metres.
+    /// Distance of the two imagers, metres: 50 mm (D400 series datasheet). What the second
+    /// one does not see is not measured.
     pub baseline_m: f64,
-    /// Pixels over which errors are alike: the size of the matching window.
+    /// Pixels over which errors are alike: the size of the matching window, a design value.
     pub correlation_px: usize,
-    /// Depths are multiples of this, metres.
+    /// Depths are multiples of this, metres: the depth unit of the cameras' 16 bit images.
     pub step_m: f64,
-    /// Surfaces seen at a larger angle from their normal are not measured, radians.
+    /// Surfaces seen at a larger angle from their normal are not measured, radians; a
+    /// design value.
     pub grazing_rad: f64,
     /// A neighbouring pixel that differs by more than this makes a depth edge, metres.
     pub edge_m: f64,
-    /// Share of the pixels at a depth edge that are not measured.
+    /// Share of the pixels at a depth edge that are not measured; a design value.
     pub edge_dropout: f64,
+    /// Share of the measured pixels at a depth edge that fly: the matching window holds
+    /// both sides of the edge, and the depth is somewhere between them. A design value.
+    pub flying: f64,
 }
 
 impl Default for Noise {
@@ -41,6 +51,7 @@ impl Default for Noise {
             grazing_rad: 75f64.to_radians(),
             edge_m: 0.015,
             edge_dropout: 0.7,
+            flying: 0.1,
         }
     }
 }
@@ -63,29 +74,38 @@ pub fn capture(
     rng: &mut impl Rng,
 ) -> Capture {
     let truth = rasterize(meshes, camera, intrinsics);
+    let second = SecondImager::look(&truth, noise.baseline_m);
     let errors = Errors::draw(intrinsics, noise.correlation_px, rng);
     let mut depth_m = vec![0.0; truth.hits.len()];
     for (pixel, hit) in truth.hits.iter().enumerate() {
-        let lost = rng.random::<f64>() < noise.edge_dropout;
         let Some(hit) = hit else { continue };
         let (column, row) = (pixel % intrinsics.width, pixel / intrinsics.width);
-        if lost && at_depth_edge(&truth, column, row, hit, noise.edge_m)
+        let mut seen_m = hit.depth_m;
+        if let Some(beyond_m) = across_edge(&truth, column, row, hit, noise.edge_m) {
+            if rng.random::<f64>() < noise.edge_dropout {
+                continue;
+            }
+            if rng.random::<f64>() < noise.flying {
+                seen_m += (beyond_m - seen_m) * uniform(rng, 0.0, 1.0);
+            }
+        }
+        if !second.sees(column, row, hit.depth_m)
             || is_grazing(meshes, camera, intrinsics, (column, row), hit, noise.grazing_rad)
         {
             continue;
         }
-        let sigma = hit.depth_m.powi(2) * noise.disparity_px / (intrinsics.fx * noise.baseline_m);
-        let measured = hit.depth_m + sigma * errors.at(column, row);
+        let sigma = seen_m.powi(2) * noise.disparity_px / (intrinsics.fx * noise.baseline_m);
+        let measured = seen_m + sigma * errors.at(column, row);
         depth_m[pixel] = ((measured / noise.step_m).round() * noise.step_m).max(0.0) as f32;
     }
     Capture { image: DepthImage { intrinsics: *intrinsics, depth_m }, truth }
 }
 
-fn at_depth_edge(truth: &Raster, column: usize, row: usize, hit: &Hit, edge_m: f64) -> bool {
-    [(-1, 0), (1, 0), (0, -1), (0, 1)].into_iter().any(|(dx, dy)| {
-        truth
-            .at(column as isize + dx, row as isize + dy)
-            .is_some_and(|other| (other.depth_m - hit.depth_m).abs() > edge_m)
+/// The depth of a neighbouring pixel that differs by more than `edge_m`, if there is one.
+fn across_edge(truth: &Raster, column: usize, row: usize, hit: &Hit, edge_m: f64) -> Option<f64> {
+    [(-1, 0), (1, 0), (0, -1), (0, 1)].into_iter().find_map(|(dx, dy)| {
+        let other = truth.at(column as isize + dx, row as isize + dy)?.depth_m;
+        ((other - hit.depth_m).abs() > edge_m).then_some(other)
     })
 }
 
@@ -139,51 +159,4 @@ pub fn looking_at(eye: &Vector3<f64>, target: &Vector3<f64>) -> Pose {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::Point3;
-    use seeone_core::random::generator;
-
-    fn table() -> TriangleMesh {
-        crate::scenery::table()
-    }
-
-    fn above(angle_deg: f64) -> Pose {
-        let a = angle_deg.to_radians();
-        looking_at(&(Vector3::new(0.0, -a.cos(), a.sin()) * 0.7), &Vector3::zeros())
-    }
-
-    #[test]
-    fn the_error_at_seventy_centimetres_is_two_millimetres() {
-        let camera = above(90.0);
-        let shot = capture(&[&table()], &camera, &D435I, &Noise::default(), &mut generator(1, "t"));
-        let errors: Vec<f64> = shot
-            .image
-            .depth_m
-            .iter()
-            .zip(&shot.truth.hits)
-            .filter_map(|(z, hit)| Some(f64::from(*z) - hit.as_ref()?.depth_m))
-            .collect();
-        let sigma = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-        assert!((0.0018..0.0023).contains(&sigma), "{sigma}");
-        let alike = errors.windows(2).map(|w| w[0] * w[1]).sum::<f64>() / errors.len() as f64;
-        assert!(alike > 0.5 * sigma * sigma, "neighbours err alike");
-    }
-
-    #[test]
-    fn a_grazing_table_is_not_measured() {
-        let shot =
-            capture(&[&table()], &above(8.0), &D435I, &Noise::default(), &mut generator(1, "t"));
-        let middle = shot.image.depth_m[240 * 640 + 320];
-        assert_eq!(middle, 0.0);
-    }
-
-    #[test]
-    fn looks_at_its_target_with_the_image_upright() {
-        let camera = above(40.0);
-        let target = camera.inverse() * Point3::origin();
-        assert!(target.x.abs() < 1e-12 && target.y.abs() < 1e-12 && target.z > 0.0);
-        let up = camera.inverse() * Point3::new(0.0, 0.0, 0.1);
-        assert!(up.y < 0.0, "what is higher in the world is higher in the image");
-    }
-}
+mod tests;

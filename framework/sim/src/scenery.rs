@@ -1,5 +1,6 @@
-//! Meshes of what does not move: the table and the mat on it, a head.
+//! Meshes of what is stiff: the table and the mat on it, a head, fingers.
 
+use crate::hand::{FINGER_THICKNESS_M, Hand, PAD_HEEL_M, PAD_TIP_M, PAD_WIDTH_M};
 use crate::surroundings::HEAD_SEMI_AXES_M;
 use nalgebra::{Point3, Translation3, Vector3};
 use seeone_core::{Pose, TriangleMesh};
@@ -42,6 +43,28 @@ pub fn head(pose: &Pose) -> TriangleMesh {
         column(&foot, place.z.max(2.0 * FOOT_HEIGHT_M), COLUMN_M),
         column(&Point3::new(place.x, place.y, 0.0), FOOT_HEIGHT_M, FOOT_M),
     ])
+}
+
+/// The two fingers of `hand`, as far as they are pads. The hand behind them is not drawn.
+pub fn fingers(hand: &Hand) -> TriangleMesh {
+    let [half_x, half_y] = [PAD_WIDTH_M / 2.0, FINGER_THICKNESS_M / 2.0];
+    let [middle_z, half_z] = [(PAD_TIP_M + PAD_HEEL_M) / 2.0, (PAD_TIP_M - PAD_HEEL_M) / 2.0];
+    let half = Vector3::new(half_x, half_y, half_z);
+    joined(&[-1.0, 1.0].map(|side| {
+        let middle = Translation3::new(0.0, side * (hand.opening_m / 2.0 + half_y), middle_z);
+        cuboid(&half, &(hand.pose * middle))
+    }))
+}
+
+/// A box of these half edges (metres) about `pose`.
+fn cuboid(half_m: &Vector3<f64>, pose: &Pose) -> TriangleMesh {
+    let side = |i: u32, axis: u32| if i >> axis & 1 == 1 { 1.0 } else { -1.0 };
+    let corner = |i: u32| Vector3::from_fn(|axis, _| side(i, axis as u32) * half_m[axis]);
+    let vertices = (0..8).map(|i| pose * Point3::from(corner(i))).collect();
+    let faces: [[u32; 4]; 6] =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    TriangleMesh::new(vertices, triangles).expect("eight corners and six faces")
 }
 
 /// Several meshes as one.
@@ -106,7 +129,10 @@ mod tests {
     fn everything_faces_outwards() {
         let ball = ellipsoid(&Vector3::new(0.1, 0.2, 0.3), &Pose::identity());
         let post = column(&Point3::origin(), 0.4, 0.1);
-        for (mesh, middle) in [(ball, Point3::origin()), (post, Point3::new(0.0, 0.0, 0.2))] {
+        let block = cuboid(&Vector3::new(0.1, 0.2, 0.3), &Pose::identity());
+        let origin = Point3::origin();
+        for (mesh, middle) in [(ball, origin), (block, origin), (post, Point3::new(0.0, 0.0, 0.2))]
+        {
             for i in 0..mesh.triangles().len() {
                 let [a, b, c] = mesh.corners(i);
                 let normal = (b - a).cross(&(c - a));

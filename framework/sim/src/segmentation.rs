@@ -1,5 +1,6 @@
-//! Which pixels of a depth image show the object on the mat.
+//! Which pixels of a depth image show the object, on the mat or in the gripper.
 
+use crate::hand::{FINGER_THICKNESS_M, Hand, PAD_HEEL_M, PAD_TIP_M, PAD_WIDTH_M};
 use nalgebra::Point3;
 use seeone_core::{Cloud, DepthImage, Pose};
 
@@ -41,28 +42,7 @@ impl DropZone {
     /// The mat's own noise stands out above the threshold here and there, in small islands;
     /// only connected patches of a fair size are kept.
     pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
-        let width = image.intrinsics.width;
-        let mut inside: Vec<Option<Point3<f64>>> = image
-            .depth_m
-            .iter()
-            .enumerate()
-            .map(|(i, z)| {
-                let z = f64::from(*z);
-                let usable = z.is_finite() && z > 0.0;
-                let point =
-                    usable.then(|| camera * image.intrinsics.deproject(i % width, i / width, z))?;
-                self.holds(&point).then_some(point)
-            })
-            .collect();
-        let patches = patches(&inside, image);
-        let largest = patches.iter().map(Vec::len).max().unwrap_or(0);
-        let mut kept: Vec<usize> = patches
-            .into_iter()
-            .filter(|p| p.len() as f64 >= SMALLEST_SHARE * largest as f64)
-            .flatten()
-            .collect();
-        kept.sort_unstable();
-        kept.into_iter().filter_map(|i| Some((i, inside[i].take()?))).collect()
+        segment(image, camera, |p| self.holds(p))
     }
 
     /// The segmented points alone.
@@ -70,6 +50,68 @@ impl DropZone {
         let points = self.segment(image, camera).into_iter().map(|(_, p)| p).collect();
         Cloud::new(points).unwrap_or_default()
     }
+}
+
+/// Where an object that hangs from a gripper may be: around the hand, above the mat, and
+/// not where the fingers are. A robot knows all three.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HandZone {
+    /// Where the hand is, `world`.
+    pub hand: Hand,
+}
+
+/// No part of a gripped cap is farther from the hand than this, metres.
+const REACH_M: f64 = 0.35;
+/// What hangs lower is taken for the mat, metres: the sensor's error grows with distance.
+const CLEAR_M: f64 = 0.02;
+/// What is this near to a finger is taken for the finger, metres: twice the sensor's error.
+const FINGER_SKIN_M: f64 = 0.005;
+
+impl HandZone {
+    fn holds(&self, p: &Point3<f64>) -> bool {
+        let q = self.hand.pose.inverse_transform_point(p);
+        let inner = self.hand.opening_m / 2.0;
+        let finger = q.x.abs() < PAD_WIDTH_M / 2.0 + FINGER_SKIN_M
+            && (PAD_HEEL_M - FINGER_SKIN_M..PAD_TIP_M + FINGER_SKIN_M).contains(&q.z)
+            && q.y.abs() < inner + FINGER_THICKNESS_M + FINGER_SKIN_M;
+        q.coords.norm() < REACH_M && p.z > CLEAR_M && !finger
+    }
+
+    /// Pixels of `image` that show what the hand holds, each with its point in `world`, in
+    /// patches of a fair size. `camera` is the camera's pose in `world`.
+    pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
+        segment(image, camera, |p| self.holds(p))
+    }
+}
+
+/// Pixels whose points `holds` holds, in connected patches of a fair size.
+fn segment(
+    image: &DepthImage,
+    camera: &Pose,
+    holds: impl Fn(&Point3<f64>) -> bool,
+) -> Vec<(usize, Point3<f64>)> {
+    let width = image.intrinsics.width;
+    let mut inside: Vec<Option<Point3<f64>>> = image
+        .depth_m
+        .iter()
+        .enumerate()
+        .map(|(i, z)| {
+            let z = f64::from(*z);
+            let usable = z.is_finite() && z > 0.0;
+            let point =
+                usable.then(|| camera * image.intrinsics.deproject(i % width, i / width, z))?;
+            holds(&point).then_some(point)
+        })
+        .collect();
+    let patches = patches(&inside, image);
+    let largest = patches.iter().map(Vec::len).max().unwrap_or(0);
+    let mut kept: Vec<usize> = patches
+        .into_iter()
+        .filter(|p| p.len() as f64 >= SMALLEST_SHARE * largest as f64)
+        .flatten()
+        .collect();
+    kept.sort_unstable();
+    kept.into_iter().filter_map(|i| Some((i, inside[i].take()?))).collect()
 }
 
 /// Connected patches (eight neighbours, and one missing pixel may be stepped over) of the

@@ -38,7 +38,7 @@ pub fn evaluate(
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Option<Figures>, NseError> {
     let (index, frames) = read_all(data)?;
-    let settled: Vec<&Frame> = frames.iter().filter(|f| f.info.settled).collect();
+    let settled: Vec<&Frame> = frames.iter().filter(|f| f.info.at_rest()).collect();
     let Some(lessons) = perceived(&settled, perceive, progress)? else {
         return Ok(None);
     };

@@ -56,7 +56,7 @@ pub fn train(
 ) -> Result<Ending, NseError> {
     let perception = Card::read(&plan.perception)?;
     let (index, frames) = read_all(&plan.data)?;
-    let settled: Vec<Frame> = frames.into_iter().filter(|f| f.info.settled).collect();
+    let settled: Vec<Frame> = frames.into_iter().filter(|f| f.info.at_rest()).collect();
     let stride = settled.len().div_ceil(plan.frames.max(1)).max(1);
     let chosen: Vec<&Frame> = settled.iter().step_by(stride).collect();
     let Some(lessons) = perceived(&chosen, perceive, progress)? else {
@@ -132,7 +132,10 @@ mod tests {
     use crate::test_caps::cap;
     use crate::test_clouds::{cloud, growth};
     use crate::{evaluate, record};
-    use seeone_core::frames::{CanonicalObject, FrameInfo, Index, write_index, write_shard};
+    use seeone_core::Pose;
+    use seeone_core::frames::{
+        CanonicalObject, FrameInfo, Index, Moment, SCHEMA, write_index, write_shard,
+    };
     use seeone_plugin::{CanonicalCloud, PluginError};
 
     /// A training set of one frame of each of eight caps, and the card of a perception.
@@ -141,8 +144,9 @@ mod tests {
             object,
             drop: 0,
             seconds: 1.0,
-            settled: true,
-            camera_xyz_m: [0.0, -0.5, 0.5],
+            moment: Moment::Resting,
+            camera: (&Pose::translation(0.0, -0.5, 0.5)).into(),
+            object_pose: (&Pose::identity()).into(),
         };
         let objects = (0..8).map(|i| {
             let mesh = cap(growth(i));
@@ -165,8 +169,11 @@ mod tests {
             .collect();
         write_shard(folder, 0, &frames).expect("a shard");
         let (objects, command) = (objects.collect(), "test".to_owned());
-        write_index(folder, &Index { schema: 1, seed: 1, command, objects, shards: vec![infos] })
-            .expect("an index");
+        write_index(
+            folder,
+            &Index { schema: SCHEMA, seed: 1, command, objects, shards: vec![infos] },
+        )
+        .expect("an index");
         perception_card(folder, "a");
     }
 

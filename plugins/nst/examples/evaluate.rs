@@ -21,10 +21,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for set in sets {
         let (index, frames) = read_all(set.as_ref())?;
         let start = Instant::now();
-        for frame in frames.iter().filter(|f| f.info.settled).take(TIMED) {
+        for frame in frames.iter().filter(|f| f.info.at_rest()).take(TIMED) {
             let points: Vec<Point3<f64>> =
                 frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
-            nst.perceive(&points, &Point3::from(frame.info.camera_xyz_m))?;
+            nst.perceive(&points, &Point3::from(frame.info.camera.xyz_m))?;
         }
         let ms = start.elapsed().as_secs_f64() * 1000.0 / TIMED as f64;
         println!("{set}: {ms:.0} ms a frame, {:#?}", evaluate(&nst, &index.objects, &frames));

@@ -4,7 +4,7 @@ use crate::alignment::least_squares;
 use nalgebra::Vector3;
 use rand::RngExt;
 use rayon::prelude::*;
-use seeone_core::frames::{Frame, Index, read_all};
+use seeone_core::frames::{Frame, Index, Moment, read_all};
 use seeone_core::random::{Generator, uniform};
 use seeone_core::{Diagnostic, Similarity};
 use std::path::Path;
@@ -13,6 +13,8 @@ use std::path::Path;
 pub const FEWEST_POINTS: usize = 64;
 /// Largest share of draws that may show the object falling.
 const FALLING_SHARE: f64 = 0.25;
+/// Largest share of draws that may show it hanging from a gripper.
+const HELD_SHARE: f64 = 0.2;
 
 /// A frame and the least-squares pose of its object.
 #[derive(Clone, Debug)]
@@ -29,6 +31,7 @@ pub struct Dataset {
     frames: Vec<AlignedFrame>,
     settled: Vec<usize>,
     falling: Vec<usize>,
+    held: Vec<usize>,
 }
 
 impl Dataset {
@@ -48,9 +51,12 @@ impl Dataset {
     /// From frames; nothing when no frame shows an object at rest.
     pub fn new(frames: Vec<Frame>) -> Option<Self> {
         let frames: Vec<AlignedFrame> = frames.into_par_iter().filter_map(aligned).collect();
-        let (settled, falling): (Vec<usize>, Vec<usize>) =
-            (0..frames.len()).partition(|i| frames[*i].frame.info.settled);
-        (!settled.is_empty()).then_some(Self { frames, settled, falling })
+        let seen = |moment: Moment| -> Vec<usize> {
+            (0..frames.len()).filter(|i| frames[*i].frame.info.moment == moment).collect()
+        };
+        let (settled, falling) = (seen(Moment::Resting), seen(Moment::Falling));
+        let held = seen(Moment::Held);
+        (!settled.is_empty()).then_some(Self { frames, settled, falling, held })
     }
 
     /// All frames.
@@ -60,9 +66,14 @@ impl Dataset {
 
     /// The number of a random frame.
     pub fn draw(&self, rng: &mut Generator) -> usize {
-        let natural = self.falling.len() as f64 / self.frames.len() as f64;
-        let fall = uniform(rng, 0.0, 1.0) < natural.min(FALLING_SHARE);
-        let from = if fall { &self.falling } else { &self.settled };
+        let natural = |some: &[usize]| some.len() as f64 / self.frames.len() as f64;
+        let falling = natural(&self.falling).min(FALLING_SHARE);
+        let held = natural(&self.held).min(HELD_SHARE);
+        let from = match uniform(rng, 0.0, 1.0) {
+            draw if draw < falling => &self.falling,
+            draw if draw < falling + held => &self.held,
+            _ => &self.settled,
+        };
         from[rng.random_range(0..from.len())]
     }
 }

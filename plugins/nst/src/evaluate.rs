@@ -4,7 +4,7 @@ use crate::dataset::aligned;
 use crate::inference::{Nst, Perceived};
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
-use seeone_core::frames::{CanonicalObject, Frame};
+use seeone_core::frames::{CanonicalObject, Frame, Moment};
 use serde::{Deserialize, Serialize};
 
 /// Points nearer than this to the mirror plane (canonical units) have no clear side.
@@ -27,13 +27,15 @@ pub struct Group {
     pub over_30_degrees: f64,
 }
 
-/// Figures of objects at rest and of falling ones, apart.
+/// Figures of objects at rest, of falling ones and of held ones, apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// At rest: what the robot sees.
     pub settled: Group,
     /// Still falling.
     pub falling: Group,
+    /// Hanging from a gripper.
+    pub held: Group,
 }
 
 /// Counts of one frame.
@@ -81,22 +83,26 @@ impl Tally {
 pub fn evaluate(nst: &Nst, objects: &[CanonicalObject], frames: &[Frame]) -> Figures {
     let diameters: Vec<f64> =
         objects.par_iter().map(|o| o.mesh().map_or(1.0, |mesh| mesh.diameter())).collect();
-    let tally = |settled: bool| {
+    let tally = |moment: Moment| {
         frames
             .par_iter()
-            .filter(|f| f.info.settled == settled)
+            .filter(|f| f.info.moment == moment)
             .filter_map(|frame| judge(nst, frame, *diameters.get(frame.info.object)?))
             .reduce(Tally::default, Tally::add)
             .group()
     };
-    Figures { settled: tally(true), falling: tally(false) }
+    Figures {
+        settled: tally(Moment::Resting),
+        falling: tally(Moment::Falling),
+        held: tally(Moment::Held),
+    }
 }
 
 fn judge(nst: &Nst, frame: &Frame, diameter: f64) -> Option<Tally> {
     let truth = aligned(frame.clone())?;
     let points: Vec<Point3<f64>> =
         frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
-    let camera = Point3::from(frame.info.camera_xyz_m);
+    let camera = Point3::from(frame.info.camera.xyz_m);
     let Ok(perceived) = nst.perceive(&points, &camera) else {
         let refused =
             Tally { frames: 1, refused: 1, points: points.len(), turned: 1, ..Tally::default() };

@@ -49,7 +49,7 @@ pub enum Start<'a> {
 /// A cloud as it lies, for the coarse network.
 pub fn coarse(frame: &AlignedFrame, rng: &mut Generator) -> Example {
     let sample = draw(frame, Sizes::COARSE.points, rng);
-    let camera = Point3::from(frame.frame.info.camera_xyz_m);
+    let camera = Point3::from(frame.frame.info.camera.xyz_m);
     let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), uniform(rng, -YAW, YAW));
     let to_frame = yaw * camera_frame(&sample.points, &camera);
     let scale = uniform(rng, 1.0 - COARSE_SCALE, 1.0 + COARSE_SCALE);

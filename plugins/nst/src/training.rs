@@ -221,7 +221,7 @@ fn starts(
     let fits = |frame: &AlignedFrame| -> candle_core::Result<[Option<Similarity>; FITS]> {
         let points: Vec<Vector3<f64>> =
             frame.frame.points.iter().map(|p| Vector3::from(p.map(f64::from))).collect();
-        let camera = Point3::from(frame.frame.info.camera_xyz_m);
+        let camera = Point3::from(frame.frame.info.camera.xyz_m);
         let mut fits = [None; FITS];
         for (seed, fit) in fits.iter_mut().enumerate() {
             *fit = coarse_pose(network, &points, &camera, seed as u64)?;
@@ -269,7 +269,9 @@ fn measure(plan: &TrainPlan, card: &mut Card, progress: Told<'_>) -> Result<Repo
 }
 
 fn note(card: &mut Card, set: &str, figures: &Figures) {
-    for (state, group) in [("settled", &figures.settled), ("falling", &figures.falling)] {
+    let groups =
+        [("settled", &figures.settled), ("falling", &figures.falling), ("held", &figures.held)];
+    for (state, group) in groups {
         let Group { frames, refused, within_004_d, within_01_d, mirrored, over_30_degrees } =
             *group;
         let named = [

@@ -49,7 +49,7 @@ fn learns_what_it_sees_and_answers_for_any_cloud() {
     // 0.0004 before training, 0.16 after these few samples.
     assert!(figures.settled.within_01_d > 0.08, "{figures:?}");
 
-    let camera = Point3::from(frames[0].info.camera_xyz_m);
+    let camera = Point3::from(frames[0].info.camera.xyz_m);
     let points: Vec<Point3<f64>> =
         frames[0].points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
     let many: Vec<Point3<f64>> = points.iter().chain(&points).copied().collect();

@@ -174,7 +174,7 @@ fn observation(frame: &Frame) -> Observation {
         depth: None,
         // The set was checked for finite points when it was read.
         cloud: Cloud::new(points).unwrap_or_default(),
-        camera_position: Point3::from(frame.info.camera_xyz_m),
+        camera_position: Point3::from(frame.info.camera.xyz_m),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Plan;
 use seeone_core::Diagnostic;
-use seeone_core::frames::{CanonicalObject, FrameInfo, read_shard, write_whole};
+use seeone_core::frames::{CanonicalObject, FrameInfo, SCHEMA, read_shard, write_whole};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -28,8 +28,9 @@ impl Shard {
     pub fn key(plan: &Plan, number: usize) -> String {
         let object = &plan.objects[number];
         let mut digest = blake3::Hasher::new();
-        digest.update(format!("{} {} {}", plan.seed, plan.drops_per_object, plan.views).as_bytes());
-        digest.update(object.name().as_bytes());
+        let numbers = [plan.objects.len(), plan.frames.get(), plan.views.get()];
+        digest.update(format!("{SCHEMA} {} {numbers:?} ", plan.seed).as_bytes());
+        digest.update(format!("{} {:?}", object.name(), object.materials()).as_bytes());
         for vertex in object.mesh().vertices() {
             vertex.coords.iter().for_each(|c| {
                 digest.update(&c.to_le_bytes());
@@ -38,13 +39,21 @@ impl Shard {
         digest.finalize().to_hex().to_string()
     }
 
-    /// The shard that is already in `folder`, if it is whole and of this plan.
-    pub fn found(plan: &Plan, folder: &Path, number: usize) -> Option<Self> {
-        let text = fs::read(path(folder, number)).ok()?;
-        let shard: Self = serde_json::from_slice(&text).ok()?;
-        (shard.key == Self::key(plan, number)).then_some(())?;
-        read_shard(folder, number, &shard.frames).ok()?;
-        Some(shard)
+    /// The shard that is already in `folder`, if it is whole.
+    ///
+    /// # Errors
+    /// `D011` when the record there is another plan's: what it describes is not this
+    /// plan's to write over.
+    pub fn found(plan: &Plan, folder: &Path, number: usize) -> Result<Option<Self>, Diagnostic> {
+        let path = path(folder, number);
+        let Ok(text) = fs::read(&path) else { return Ok(None) };
+        let ours = |shard: &Self| shard.key == Self::key(plan, number);
+        let Some(shard) = serde_json::from_slice(&text).ok().filter(ours) else {
+            return Err(Diagnostic::new("D011", "the folder holds the frames of another plan")
+                .in_file(&path)
+                .hint("name another folder, or remove what is in this one"));
+        };
+        Ok(read_shard(folder, number, &shard.frames).is_ok().then_some(shard))
     }
 
     /// Writes the record; the frames must have been written before.

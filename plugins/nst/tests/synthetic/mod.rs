@@ -3,7 +3,9 @@
 
 use nalgebra::{Point3, Vector3};
 use seeone_core::Pose;
-use seeone_core::frames::{CanonicalObject, Frame, FrameInfo, Index, write_index, write_shard};
+use seeone_core::frames::{
+    CanonicalObject, Frame, FrameInfo, Index, Moment, SCHEMA, write_index, write_shard,
+};
 use seeone_core::random::{Generator, generator, normal, rotation, uniform};
 use std::path::Path;
 
@@ -61,8 +63,9 @@ fn frame(shape: &Shape, object: usize, drop: usize, rng: &mut Generator) -> Fram
         object,
         drop,
         seconds: 2.0,
-        settled: drop % 4 != 3,
-        camera_xyz_m: camera.into(),
+        moment: if drop % 4 == 3 { Moment::Falling } else { Moment::Resting },
+        camera: (&Pose::from(camera)).into(),
+        object_pose: (&lying).into(),
     };
     Frame { info, points, nocs }
 }
@@ -71,7 +74,7 @@ fn frame(shape: &Shape, object: usize, drop: usize, rng: &mut Generator) -> Fram
 pub fn write(folder: &Path, objects: usize, drops: usize) {
     let mut rng = generator(7, "synthetic");
     let mut index =
-        Index { schema: 1, seed: 7, command: "test".into(), objects: vec![], shards: vec![] };
+        Index { schema: SCHEMA, seed: 7, command: "test".into(), objects: vec![], shards: vec![] };
     for object in 0..objects {
         let shape = Shape::random(&mut rng);
         let frames: Vec<Frame> =
