@@ -146,3 +146,39 @@ fn patches(inside: &[Option<Point3<f64>>], image: &DepthImage) -> Vec<Vec<usize>
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::depth_camera::{D435I, Noise, capture, looking_at};
+    use crate::scenery::{fingers, rectangle, table};
+    use nalgebra::{Translation3, UnitQuaternion, Vector3};
+    use seeone_core::random::generator;
+
+    #[test]
+    fn neither_fingers_nor_table_are_taken_for_what_the_hand_holds() {
+        let level = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
+        let pose = Pose::from_parts(Translation3::new(0.0, 0.0, 0.3), level);
+        let hand = Hand { pose, opening_m: 0.002 };
+        let sheet = rectangle([0.0, 0.1], [0.15, 0.15], 0.27);
+        let camera = looking_at(&Vector3::new(0.3, -0.3, 0.8), &Vector3::new(0.0, 0.0, 0.3));
+        let meshes = [&sheet, &table(), &fingers(&hand)];
+        let noise = Noise::default();
+        let shot = capture(&meshes, &camera, &D435I, &noise, &mut generator(1, "t"));
+        let measured = |mesh: u32| {
+            let pixels = shot.truth.hits.iter().zip(&shot.image.depth_m);
+            pixels.filter(|(h, z)| **z > 0.0 && h.is_some_and(|h| h.mesh == mesh)).count()
+        };
+        assert!(measured(2) > 200, "the fingers are in view");
+        let taken = HandZone { hand }.segment(&shot.image, &camera);
+        let of = |mesh: u32| {
+            let is = |(pixel, _): &&(usize, Point3<f64>)| {
+                shot.truth.hits[*pixel].is_some_and(|h| h.mesh == mesh)
+            };
+            taken.iter().filter(is).count()
+        };
+        assert!(of(0) as f64 > 0.9 * measured(0) as f64, "{} of {}", of(0), measured(0));
+        assert_eq!(of(1), 0, "pixels of the table");
+        assert!((of(2) as f64) < 0.03 * measured(2) as f64, "{} of {}", of(2), measured(2));
+    }
+}

@@ -14,8 +14,9 @@ use seeone_core::random::{Generator, generator, uniform};
 
 /// One drop of so many is also seen while it falls: a fifth of the frames.
 const FALLING_ONE_OF: usize = 3;
-/// One drop of so many is also gripped and held up: a sixth of the frames.
-const HELD_ONE_OF: usize = 4;
+/// Two drops of seven are also gripped and held up: a sixth of the frames.
+const HELD_TURNS: [usize; 2] = [1, 4];
+const TURNS: usize = 7;
 /// When a falling object is seen, seconds after it was let go: in the air, at the first
 /// touch, and crumpling on the mat.
 const FALLING_S: (f64, f64) = (0.12, 0.45);
@@ -69,10 +70,11 @@ impl<'a> Dropped<'a> {
         let at_rest = world.settle(SETTLE_S).at_rest;
         let moment = if at_rest { Moment::Resting } else { Moment::Falling };
         frames.extend(self.look(&world, drop, 0.0, moment, &mut rng));
-        if at_rest && turn % HELD_ONE_OF == 1 {
-            if let Some(held) = self.grips.hold_up(&world, &mut rng) {
-                frames.extend(self.look(&held, drop, world.time(), Moment::Held, &mut rng));
-            }
+        if at_rest
+            && HELD_TURNS.contains(&(turn % TURNS))
+            && let Some(held) = self.grips.hold_up(&world, &mut rng)
+        {
+            frames.extend(self.look(&held, drop, world.time(), Moment::Held, &mut rng));
         }
         if world.fault().is_some() { Vec::new() } else { frames }
     }
