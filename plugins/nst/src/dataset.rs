@@ -1,10 +1,11 @@
 //! Training frames, each with the pose that best canonicalises it.
 
 use crate::alignment::least_squares;
+use crate::round::faced;
 use nalgebra::Vector3;
 use rand::RngExt;
 use rayon::prelude::*;
-use seeone_core::frames::{Frame, Index, Moment, read_all};
+use seeone_core::frames::{CanonicalObject, Frame, Index, Moment, read_all};
 use seeone_core::random::{Generator, uniform};
 use seeone_core::{Diagnostic, Similarity};
 use std::path::Path;
@@ -41,15 +42,21 @@ impl Dataset {
     /// A located diagnostic when the set cannot be read or holds nothing to train on.
     pub fn read(folder: &Path) -> Result<(Self, Index), Diagnostic> {
         let (index, frames) = read_all(folder)?;
-        let set = Self::new(frames).ok_or_else(|| {
+        let set = Self::new(frames, &index.objects).ok_or_else(|| {
             Diagnostic::new("N001", "the set holds no usable frame of an object at rest")
                 .in_file(folder)
         })?;
         Ok((set, index))
     }
 
-    /// From frames; nothing when no frame shows an object at rest.
-    pub fn new(frames: Vec<Frame>) -> Option<Self> {
+    /// Nothing when no frame shows an object at rest. A round object's frames are turned so
+    /// that its front faces the camera.
+    fn new(frames: Vec<Frame>, objects: &[CanonicalObject]) -> Option<Self> {
+        let aligned = |frame: Frame| {
+            let round = objects.get(frame.info.object).is_some_and(|o| o.round);
+            let frame = aligned(frame)?;
+            Some(if round { faced(frame) } else { frame })
+        };
         let frames: Vec<AlignedFrame> = frames.into_par_iter().filter_map(aligned).collect();
         let seen = |moment: Moment| -> Vec<usize> {
             (0..frames.len()).filter(|i| frames[*i].frame.info.moment == moment).collect()
@@ -64,17 +71,23 @@ impl Dataset {
         &self.frames
     }
 
-    /// The number of a random frame.
-    pub fn draw(&self, rng: &mut Generator) -> usize {
-        let natural = |some: &[usize]| some.len() as f64 / self.frames.len() as f64;
-        let falling = natural(&self.falling).min(FALLING_SHARE);
-        let held = natural(&self.held).min(HELD_SHARE);
-        let from = match uniform(rng, 0.0, 1.0) {
-            draw if draw < falling => &self.falling,
-            draw if draw < falling + held => &self.held,
-            _ => &self.settled,
-        };
+    /// The number of a random frame of an object on the mat, at rest or falling.
+    pub fn draw_on_mat(&self, rng: &mut Generator) -> usize {
+        let on_mat = self.falling.len() + self.settled.len();
+        let natural = self.falling.len() as f64 / on_mat as f64;
+        let fall = uniform(rng, 0.0, 1.0) < natural.min(FALLING_SHARE);
+        let from = if fall { &self.falling } else { &self.settled };
         from[rng.random_range(0..from.len())]
+    }
+
+    /// The number of a random frame, held in the gripper or on the mat.
+    pub fn draw(&self, rng: &mut Generator) -> usize {
+        let natural = self.held.len() as f64 / self.frames.len() as f64;
+        if uniform(rng, 0.0, 1.0) < natural.min(HELD_SHARE) {
+            self.held[rng.random_range(0..self.held.len())]
+        } else {
+            self.draw_on_mat(rng)
+        }
     }
 }
 

@@ -2,13 +2,21 @@
 
 use crate::dataset::aligned;
 use crate::inference::{Nst, Perceived};
-use nalgebra::{Point3, Vector3};
+use crate::round::nearest;
+use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
+use seeone_core::Similarity;
 use seeone_core::frames::{CanonicalObject, Frame, Moment};
+use seeone_core::random::{Generator, direction, generator, normal};
 use serde::{Deserialize, Serialize};
 
 /// Points nearer than this to the mirror plane (canonical units) have no clear side.
 const NO_SIDE: f64 = 0.1;
+
+/// How far off a hand's knowledge of what it holds may be: deviations of a turn (rad) and of
+/// each coordinate (canonical units, some 0.27 m).
+const GRIP_TURN_RAD: f64 = 0.2;
+const GRIP_SHIFT: f64 = 0.05;
 
 /// How good the answers on a group of frames are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -79,15 +87,23 @@ impl Tally {
 }
 
 /// Perceives every frame and compares with the truth. `objects` are those of the frames'
-/// set. Frames too small to have a true pose are left out.
+/// set. Frames too small to have a true pose are left out; the turn of round objects is
+/// taken out. A held object is perceived from a start that is off by what a hand does not
+/// know of its grip.
 pub fn evaluate(nst: &Nst, objects: &[CanonicalObject], frames: &[Frame]) -> Figures {
     let diameters: Vec<f64> =
         objects.par_iter().map(|o| o.mesh().map_or(1.0, |mesh| mesh.diameter())).collect();
     let tally = |moment: Moment| {
         frames
             .par_iter()
-            .filter(|f| f.info.moment == moment)
-            .filter_map(|frame| judge(nst, frame, *diameters.get(frame.info.object)?))
+            .enumerate()
+            .filter(|(_, f)| f.info.moment == moment)
+            .filter_map(|(number, frame)| {
+                let (object, diameter) =
+                    (objects.get(frame.info.object)?, *diameters.get(frame.info.object)?);
+                let mut rng = generator(number as u64, "held start");
+                judge(nst, frame, object.round, diameter, &mut rng)
+            })
             .reduce(Tally::default, Tally::add)
             .group()
     };
@@ -98,20 +114,40 @@ pub fn evaluate(nst: &Nst, objects: &[CanonicalObject], frames: &[Frame]) -> Fig
     }
 }
 
-fn judge(nst: &Nst, frame: &Frame, diameter: f64) -> Option<Tally> {
-    let truth = aligned(frame.clone())?;
+fn judge(
+    nst: &Nst,
+    frame: &Frame,
+    round: bool,
+    diameter: f64,
+    rng: &mut Generator,
+) -> Option<Tally> {
+    let mut truth = aligned(frame.clone())?;
     let points: Vec<Point3<f64>> =
         frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
-    let camera = Point3::from(frame.info.camera.xyz_m);
-    let Ok(perceived) = nst.perceive(&points, &camera) else {
+    let perceived = if frame.info.moment == Moment::Held {
+        nst.perceive_from(&points, &known_to_the_hand(&truth.alignment, rng))
+    } else {
+        nst.perceive(&points, &Point3::from(frame.info.camera.xyz_m))
+    };
+    let Ok(perceived) = perceived else {
         let refused =
             Tally { frames: 1, refused: 1, points: points.len(), turned: 1, ..Tally::default() };
         return Some(refused);
     };
+    if round {
+        truth = nearest(truth, &perceived.rows, &perceived.nocs);
+    }
     let angle = perceived.alignment.isometry.rotation.angle_to(&truth.alignment.isometry.rotation);
-    let mut tally = compare(&perceived, frame, diameter);
+    let mut tally = compare(&perceived, &truth.frame, diameter);
     tally.turned = usize::from(angle.to_degrees() > 30.0);
     Some(tally)
+}
+
+/// The true alignment, off by as much as a grip was.
+fn known_to_the_hand(truth: &Similarity, rng: &mut Generator) -> Similarity {
+    let turn = UnitQuaternion::from_scaled_axis(direction(rng) * (GRIP_TURN_RAD * normal(rng)));
+    let shift = Vector3::from_fn(|_, _| GRIP_SHIFT * normal(rng));
+    Similarity::from_parts(Translation3::from(shift), turn, 1.0) * truth
 }
 
 fn compare(perceived: &Perceived, frame: &Frame, diameter: f64) -> Tally {

@@ -8,7 +8,7 @@ use crate::network::{Network, Sizes};
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 use rayon::prelude::*;
-use seeone_core::frames::{Index, read_all};
+use seeone_core::frames::{Index, Moment, read_all};
 use seeone_core::random::{Generator, generator, uniform};
 use seeone_core::{Diagnostic, Similarity};
 use seeone_nn::ops::cross_entropy;
@@ -111,7 +111,7 @@ pub fn train(plan: &TrainPlan, progress: Told<'_>) -> Result<Report, NstTrainErr
     let (set, index) = Dataset::read(&plan.data)?;
 
     let coarse = Network::new(Sizes::COARSE, plan.seed)?;
-    let draw = |rng: &mut Generator| examples::coarse(&set.frames()[set.draw(rng)], rng);
+    let draw = |rng: &mut Generator| examples::coarse(&set.frames()[set.draw_on_mat(rng)], rng);
     let data = format!("data seed {}", index.seed);
     if run(&coarse, plan, Which::Coarse, &data, &draw, progress)? == Ending::Interrupted {
         return Ok(Report::Interrupted);
@@ -219,6 +219,9 @@ fn starts(
     };
     tell(0);
     let fits = |frame: &AlignedFrame| -> candle_core::Result<[Option<Similarity>; FITS]> {
+        if frame.frame.info.moment == Moment::Held {
+            return Ok([None; FITS]); // its pose comes from the hand, not from the coarse network
+        }
         let points: Vec<Vector3<f64>> =
             frame.frame.points.iter().map(|p| Vector3::from(p.map(f64::from))).collect();
         let camera = Point3::from(frame.frame.info.camera.xyz_m);
