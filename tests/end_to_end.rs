@@ -271,14 +271,19 @@ fn what_there_is_can_be_asked() {
     assert_eq!(rows.len(), 8);
     assert!(rows.iter().all(|row| !row["plugins"].as_array().expect("names").is_empty()));
     let objects = seeone(["objects", "list", "--json"]);
-    let names: Vec<String> = serde_json::from_str(&objects.stdout).expect("names");
-    assert_eq!(names.len(), seeone(["objects", "list"]).stdout.lines().count());
-    let unseen = names.iter().find(|name| name.contains("unseen")).expect("an unseen object");
+    let written = include_str!("../scenes/objects/caps.json");
+    assert!(objects.stdout == written, "scenes/objects/caps.json is not what `objects list` says");
+    let entries: Vec<Value> = serde_json::from_str(&objects.stdout).expect("entries");
+    assert_eq!(entries.len(), seeone(["objects", "list"]).stdout.lines().count());
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let picture = folder.path().join("made/object.png");
-    let shown = seeone(["objects", "show", unseen, "--out", &picture.display().to_string()]);
-    assert_eq!(shown.status, Some(0), "{}", shown.stderr);
-    assert!(fs::read(picture).expect("a picture").starts_with(b"\x89PNG"));
+    for template in ["baseball", "bucket", "visor", "flat", "beanie"] {
+        let entry = entries.iter().find(|e| e["template"] == template).expect("one of each");
+        let name = entry["name"].as_str().expect("a name");
+        let picture = folder.path().join("made").join(format!("{name}.png"));
+        let shown = seeone(["objects", "show", name, "--out", &picture.display().to_string()]);
+        assert_eq!(shown.status, Some(0), "{}", shown.stderr);
+        assert!(fs::read(picture).expect("a picture").starts_with(b"\x89PNG"));
+    }
     for words in [["--help"], ["--version"]] {
         let call = seeone(words);
         assert_eq!((call.status, call.stderr.as_str()), (Some(0), ""));

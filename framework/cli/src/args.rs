@@ -104,7 +104,8 @@ pub struct EvalArgs {
     /// Skill, robot, scene, methods.
     #[command(flatten)]
     pub cell: CellArgs,
-    /// `unseen`, `validation`, `train`, a name, or a file from `objects import`.
+    /// A set (`unseen`, `validation`, `train`, `paper-40`, `beanie`), a name, or a file from
+    /// `objects import`.
     #[arg(long, default_value = "unseen")]
     pub objects: String,
     /// Number of attempts; attempt i uses seed i and takes the objects in turn.
@@ -143,9 +144,9 @@ pub struct TeachArgs {
 /// `objects ...`.
 #[derive(Debug, Subcommand)]
 pub enum ObjectsAction {
-    /// Names of the generated objects, a line each.
+    /// The generated objects with template and sets, a line each.
     List {
-        /// As a JSON array.
+        /// As a JSON array, with measures.
         #[arg(long)]
         json: bool,
     },
@@ -189,7 +190,8 @@ pub struct DataArgs {
     /// Seed of every draw.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// `train`, `validation`, `unseen`, a name, or a file from `objects import`.
+    /// A set (`train`, `paper-40`, `validation`, `unseen`, `beanie`), a name, or a file from
+    /// `objects import`.
     #[arg(long, default_value = "train")]
     pub objects: String,
     /// Frames in all, shared evenly by the objects.

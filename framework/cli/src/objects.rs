@@ -9,10 +9,6 @@ use seeone_sim::object_file::{self, ObjectFileFault};
 use std::fs;
 use std::path::Path;
 
-/// The sets of generated objects by the names that the command line uses.
-pub const SETS: [(&str, Set); 3] =
-    [("train", Set::Train), ("validation", Set::Validation), ("unseen", Set::Unseen)];
-
 /// The object of this name, or of this file.
 ///
 /// # Errors
@@ -25,7 +21,7 @@ pub fn resolve(name_or_file: &str) -> Result<Object> {
     if path.exists() || path.extension().is_some() {
         return Ok(read(path)?);
     }
-    let names: Vec<String> = SETS.iter().flat_map(|(_, set)| cap::names(*set)).collect();
+    let names: Vec<String> = Set::DISJOINT.into_iter().flat_map(cap::names).collect();
     let fault = Diagnostic::new("O001", format!("there is no object \"{name_or_file}\""));
     let near = fault.clone().suggest(name_or_file, names.iter().map(String::as_str));
     Err(match near.hint {
@@ -39,9 +35,10 @@ pub fn resolve(name_or_file: &str) -> Result<Object> {
 
 /// The names of a set, or the one name or file that is none.
 pub fn names(set_or_object: &str) -> Vec<String> {
-    SETS.iter()
-        .find(|(name, _)| *name == set_or_object)
-        .map_or_else(|| vec![set_or_object.to_owned()], |(_, set)| cap::names(*set))
+    Set::ALL
+        .into_iter()
+        .find(|set| set.name() == set_or_object)
+        .map_or_else(|| vec![set_or_object.to_owned()], cap::names)
 }
 
 /// The object of an attempt: the named one, or the set's member whose turn it is.

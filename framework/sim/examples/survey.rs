@@ -1,27 +1,39 @@
 //! Settles caps on the head and tells how they sit:
-//! `survey train|validation|unseen|NAME|FILE.obj`
+//! `survey SET|TEMPLATE|NAME|FILE.obj...`
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use seeone_sim::category::cap::{self, Set};
 use seeone_sim::import::{ImportFault, Options, cap_from_obj};
+use seeone_sim::rigid_fit::rigid_fit;
 use seeone_sim::{Object, Region, Settings, worn::worn};
 use std::error::Error;
 use std::io::Write;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let which = std::env::args().nth(1).unwrap_or_else(|| "unseen".into());
-    let names = match Set::ALL.into_iter().find(|s| s.name() == which) {
-        Some(set) => cap::names(set),
-        None => vec![which],
-    };
+    let names: Vec<String> = std::env::args().skip(1).flat_map(names).collect();
     let lines: Vec<String> = names.par_iter().map(|name| line(name)).collect();
     let mut out = std::io::stdout().lock();
-    writeln!(out, "name vertices mass_g d_m edge_m front_hem_z back_hem_z apex_z brim_low_z")?;
+    writeln!(
+        out,
+        "name template vertices mass_g tilt_deg d_m edge_m front_hem_z back_hem_z apex_z brim_low_z"
+    )?;
     for line in lines {
         writeln!(out, "{line}")?;
     }
     Ok(())
+}
+
+/// The names of a set, those of a template's caps, or the one name.
+fn names(which: String) -> Vec<String> {
+    if let Some(set) = Set::ALL.into_iter().find(|set| set.name() == which) {
+        return cap::names(set);
+    }
+    let members = Set::DISJOINT.into_iter().flat_map(Set::members);
+    let of_template: Vec<String> =
+        members.filter(|(_, m)| m.template.name() == which).map(|(name, _)| name).collect();
+    if of_template.is_empty() { vec![which] } else { of_template }
 }
 
 fn object(name: &str) -> Result<Object, ImportFault> {
@@ -36,10 +48,13 @@ fn line(name: &str) -> String {
         Ok(object) => object,
         Err(fault) => return format!("{name}: {fault}"),
     };
-    let worn = match worn(&object, &Settings::default()) {
+    let template = cap::member(name).map_or("imported", |member| member.template.name());
+    let worn = match worn(&object, &Settings { substeps: 20, ..Settings::default() }) {
         Ok(worn) => worn,
-        Err(fault) => return format!("{name}: {fault}"),
+        Err(fault) => return format!("{name} {template}: {fault}"),
     };
+    let turn = rigid_fit(object.mesh().vertices(), &worn.vertices).rotation;
+    let tilt_deg = (turn * Vector3::z()).angle(&Vector3::z()).to_degrees();
     let hem = object.vertices_of(Region::Hem);
     let y = |v: &usize| worn.vertices[*v].y;
     let z_at = |v: Option<usize>| v.map_or(f64::NAN, |v| worn.vertices[v].z);
@@ -49,7 +64,7 @@ fn line(name: &str) -> String {
     let brim = object.vertices_of(Region::Brim);
     let low = brim.iter().map(|v| worn.vertices[*v].z).fold(f64::INFINITY, f64::min);
     format!(
-        "{name} {} {:.0} {:.3} {:.3} {front:.3} {back:.3} {apex:.3} {low:.3}",
+        "{name} {template} {} {:.0} {tilt_deg:.1} {:.3} {:.3} {front:.3} {back:.3} {apex:.3} {low:.3}",
         object.mesh().vertices().len(),
         object.mass() * 1e3,
         worn.diameter_m,

@@ -1,14 +1,14 @@
 //! `objects`: list the generated ones, import a mesh, draw either.
 
 use crate::args::ImportArgs;
-use crate::objects::{SETS, resolve, write};
+use crate::objects::{resolve, write};
 use crate::outputs::make_folder;
 use crate::picture::{colors, write_png};
 use crate::{Ending, console};
 use anyhow::Result;
 use nalgebra::Vector3;
 use seeone_core::{Diagnostic, Intrinsics};
-use seeone_sim::category::cap;
+use seeone_sim::category::cap::{self, Entry};
 use seeone_sim::depth_camera::looking_at;
 use seeone_sim::import::{Axis, ImportFault, Options, cap_from_obj};
 use seeone_sim::picture::{Colored, Paint, render};
@@ -25,16 +25,19 @@ const LENS: Intrinsics =
 const HEM_TO_HEAD: f64 = 0.98;
 const GROUND: [f64; 3] = [0.80, 0.77, 0.71];
 
-/// Lists every generated object.
+/// Lists every generated object with its template and its sets.
 ///
 /// # Errors
 /// When standard output has gone.
 pub fn list(json: bool) -> Result<Ending> {
-    let names: Vec<String> = SETS.iter().flat_map(|(_, set)| cap::names(*set)).collect();
+    let entries = cap::catalogue();
     if json {
-        console::answer(&serde_json::to_string_pretty(&names)?)?;
+        console::answer(&serde_json::to_string_pretty(&entries)?)?;
     } else {
-        names.iter().try_for_each(|name| console::answer(name))?;
+        for Entry { name, set, template, paper_40, .. } in entries {
+            let part = if paper_40 { ", paper-40" } else { "" };
+            console::answer(&format!("{name:18}  {template:8}  {set}{part}"))?;
+        }
     }
     Ok(Ending::Success)
 }
