@@ -7,7 +7,7 @@ use seeone_sim::category::cap;
 use seeone_sim::depth_camera::looking_at;
 use seeone_sim::import::{Options, cap_from_obj};
 use seeone_sim::picture::{Color, Colored, Paint, render};
-use seeone_sim::{Object, Region, Settings, scenery, worn::worn};
+use seeone_sim::{Head, Object, Region, Settings, scenery, worn::worn};
 use std::error::Error;
 use std::fs::File;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let head = Pose::from_parts(Translation3::from(place + Vector3::z() * 0.16), turn);
         let on_head: Vec<Point3<f64>> =
             worn(&cap, &Settings::default())?.vertices.iter().map(|v| head * v).collect();
-        parts.push((scenery::head(&head), Paint::Plain(SKIN)));
+        parts.push((scenery::head(&Head::medium(head)), Paint::Plain(SKIN)));
         parts.push((cap.mesh().with_vertices(on_head)?, paint(&cap, i)));
     }
     let rows = parts.len().div_ceil(2 * COLUMNS);

@@ -1,19 +1,26 @@
 //! Settles caps on the head and tells how they sit:
-//! `survey SET|TEMPLATE|NAME|FILE.obj...`
+//! `survey [--head small|medium|large] SET|TEMPLATE|NAME|FILE.obj...`
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use seeone_sim::category::cap::{self, Set};
 use seeone_sim::import::{ImportFault, Options, cap_from_obj};
 use seeone_sim::rigid_fit::rigid_fit;
-use seeone_sim::{Object, Region, Settings, worn::worn};
+use seeone_sim::worn::worn_on;
+use seeone_sim::{HeadSize, Object, Region, Settings};
 use std::error::Error;
 use std::io::Write;
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let names: Vec<String> = std::env::args().skip(1).flat_map(names).collect();
-    let lines: Vec<String> = names.par_iter().map(|name| line(name)).collect();
+    let mut given: Vec<String> = std::env::args().skip(1).collect();
+    let mut size = HeadSize::Medium;
+    if let Some(at) = given.iter().position(|a| a == "--head") {
+        let flag: Vec<String> = given.drain(at..(at + 2).min(given.len())).collect();
+        size = flag.get(1).and_then(|s| HeadSize::named(s)).ok_or("no head has this size")?;
+    }
+    let names: Vec<String> = given.into_iter().flat_map(names).collect();
+    let lines: Vec<String> = names.par_iter().map(|name| line(name, size)).collect();
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -43,13 +50,13 @@ fn object(name: &str) -> Result<Object, ImportFault> {
     }
 }
 
-fn line(name: &str) -> String {
+fn line(name: &str, size: HeadSize) -> String {
     let object = match object(name) {
         Ok(object) => object,
         Err(fault) => return format!("{name}: {fault}"),
     };
     let template = cap::member(name).map_or("imported", |member| member.template.name());
-    let worn = match worn(&object, &Settings { substeps: 20, ..Settings::default() }) {
+    let worn = match worn_on(&object, size, &Settings { substeps: 20, ..Settings::default() }) {
         Ok(worn) => worn,
         Err(fault) => return format!("{name} {template}: {fault}"),
     };

@@ -72,7 +72,7 @@ impl Cell {
     }
 
     /// A noisy depth image from the pose `camera` of what stands in the cell: the table,
-    /// the head, the object. The arm is expected to keep out of the picture.
+    /// the head, the hook, the object. The arm is expected to keep out of the picture.
     pub fn depth_image(
         &self,
         camera: &Pose,
@@ -81,13 +81,19 @@ impl Cell {
     ) -> DepthImage {
         let mut meshes = vec![scenery::table(), self.world.mesh()];
         meshes.extend(self.head_mesh());
+        meshes.extend(self.hook_mesh());
         let meshes: Vec<&TriangleMesh> = meshes.iter().collect();
         capture(&meshes, camera, intrinsics, &Noise::default(), noise).image
     }
 
     /// The head's surface in `world`, when there is one.
     pub fn head_mesh(&self) -> Option<TriangleMesh> {
-        self.world.surroundings().head.as_ref().map(|head| scenery::head(&head.pose))
+        self.world.surroundings().head.as_ref().map(scenery::head)
+    }
+
+    /// The hook's surface in `world`, with a piece of its wall, when there is one.
+    pub fn hook_mesh(&self) -> Option<TriangleMesh> {
+        self.world.surroundings().hook.as_ref().map(scenery::hook)
     }
 
     /// Puts the hand at a pose at once: where the arm is when the cell is set up.

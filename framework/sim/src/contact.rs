@@ -4,16 +4,18 @@
 //! most mu dn of its tangential motion relative to the body (position-level Coulomb
 //! friction; Macklin et al. 2014).
 
+mod bodies;
+mod body;
+pub mod capsule;
 pub mod ellipsoid;
 pub mod pads;
 mod sample;
 
+pub use bodies::Bodies;
+pub use body::{Body, Resolution, Shape};
 pub use sample::Sample;
 
-use crate::shell::{Momentum, Shell};
-use ellipsoid::Ellipsoid;
 use nalgebra::Vector3;
-use seeone_core::Pose;
 
 /// Speed at which a body pushes out what it was put into, m/s: shoved out at once, a cap
 /// placed a millimetre inside the head would leave it at the speed limit.
@@ -43,54 +45,4 @@ impl Touch {
         let grip = if slide > friction * lift { friction * lift / slide } else { 1.0 };
         (self.normal * lift - tangential * grip, lift)
     }
-}
-
-/// The table's top: the plane z = 0. Adds what it gave the shell to `given`.
-pub fn with_table(shell: &mut Shell, friction: f64, h: f64, given: &mut Momentum) {
-    for vertex in 0..shell.position.len() {
-        let depth = -shell.position[vertex].z;
-        if depth > 0.0 {
-            let touch = Touch { normal: Vector3::z(), depth, carried: Vector3::zeros() };
-            resolve(shell, vertex, &touch, friction, h, given);
-        }
-    }
-}
-
-/// An ellipsoid at rest at `pose`. Adds what it gave the shell to `given`.
-pub fn with_ellipsoid(
-    shell: &mut Shell,
-    body: &Ellipsoid,
-    pose: &Pose,
-    friction: f64,
-    h: f64,
-    given: &mut Momentum,
-) {
-    for vertex in 0..shell.position.len() {
-        let local = pose.inverse_transform_point(&shell.position[vertex]);
-        if !body.contains(&local) {
-            continue;
-        }
-        let (distance, normal) = body.signed_distance(&local);
-        let normal = pose.rotation * normal;
-        let touch = Touch { normal, depth: -distance, carried: Vector3::zeros() };
-        resolve(shell, vertex, &touch, friction, h, given);
-    }
-}
-
-#[inline]
-fn resolve(
-    shell: &mut Shell,
-    vertex: usize,
-    touch: &Touch,
-    friction: f64,
-    h: f64,
-    given: &mut Momentum,
-) {
-    if shell.inverse_mass[vertex] <= 0.0 {
-        return;
-    }
-    let moved = shell.position[vertex] - shell.previous[vertex];
-    let (correction, _) = touch.correction(&moved, friction, h);
-    shell.position[vertex] += correction;
-    given.add(&(correction * (shell.mass[vertex] / h)), &shell.position[vertex]);
 }

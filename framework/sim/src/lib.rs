@@ -27,6 +27,6 @@ pub mod worn;
 pub use contact::ellipsoid::Ellipsoid;
 pub use hand::{Hand, HandState};
 pub use object::{Material, Object, ObjectFault, Region, Symmetry};
-pub use surroundings::{Frictions, Head, Surroundings};
+pub use surroundings::{Frictions, Head, HeadSize, Hook, Surroundings};
 pub use wearing::WearError;
 pub use world::{Settings, Settled, World};

@@ -122,6 +122,7 @@ mod tests {
     use super::*;
     use crate::depth_camera::{D435I, looking_at};
     use crate::scenery;
+    use crate::surroundings::Head;
 
     fn pixel(picture: &Picture, column: usize, row: usize) -> [u8; 3] {
         let i = 3 * (row * picture.width + column);
@@ -131,7 +132,7 @@ mod tests {
     #[test]
     fn colours_fall_where_the_things_are() {
         let table = scenery::table();
-        let head = scenery::head(&Pose::translation(0.0, 0.0, 0.11));
+        let head = scenery::head(&Head::medium(Pose::translation(0.0, 0.0, 0.11)));
         let scene = [
             Colored { mesh: &table, paint: Paint::Plain([0.2, 0.3, 0.8]) },
             Colored { mesh: &head, paint: Paint::Plain([0.8, 0.2, 0.1]) },

@@ -1,26 +1,13 @@
 //! What is in the world beside the object and the hand.
 
-use crate::contact::ellipsoid::Ellipsoid;
-use nalgebra::Vector3;
+mod head;
+mod hook;
+
+pub use head::{HEAD_SEMI_AXES_M, Head, HeadSize};
+pub use hook::{Hook, PEG_BALL_RADIUS_M, PEG_LENGTH_M, PEG_RADIUS_M};
+
+use crate::contact::{Body, Resolution, Shape};
 use seeone_core::Pose;
-
-/// Semi-axes of the head, metres, along its x (ear to ear), y (where the face looks) and
-/// z (up): a circumference of 0.556 m.
-pub const HEAD_SEMI_AXES_M: [f64; 3] = [0.077, 0.099, 0.110];
-
-/// A head: an ellipsoid with its origin at the centre, z up and the face along +y.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Head {
-    /// Head frame -> world.
-    pub pose: Pose,
-}
-
-impl Head {
-    /// Its shape in its own frame.
-    pub fn shape() -> Ellipsoid {
-        Ellipsoid { semi_axes: Vector3::from(HEAD_SEMI_AXES_M) }
-    }
-}
 
 /// Coulomb friction coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +16,15 @@ pub struct Frictions {
     pub table: f64,
     /// Fabric on the head.
     pub head: f64,
+    /// Fabric on the hook's wood and on the wall behind it.
+    pub hook: f64,
     /// Fabric on the gripper's rubber pads.
     pub pad: f64,
 }
 
 impl Default for Frictions {
     fn default() -> Self {
-        Self { table: 0.5, head: 0.5, pad: 0.8 }
+        Self { table: 0.5, head: 0.5, hook: 0.3, pad: 0.8 }
     }
 }
 
@@ -46,6 +35,23 @@ pub struct Surroundings {
     pub table: bool,
     /// A head, if any.
     pub head: Option<Head>,
+    /// A hook on a wall, if any.
+    pub hook: Option<Hook>,
     /// Friction with each of them.
     pub frictions: Frictions,
+}
+
+impl Surroundings {
+    /// Everything in it that an object may touch.
+    pub(crate) fn bodies(&self) -> Vec<Body> {
+        let head = self.head.map(|head| head.bodies(self.frictions.head));
+        let hook = self.hook.map(|hook| hook.bodies(self.frictions.hook));
+        let table = self.table.then(|| half_space(Pose::identity(), self.frictions.table));
+        head.into_iter().flatten().chain(hook.into_iter().flatten()).chain(table).collect()
+    }
+}
+
+/// Everything at and below the plane z = 0 of `pose`.
+fn half_space(pose: Pose, friction: f64) -> Body {
+    Body { shape: Shape::HalfSpace, pose, friction, resolution: Resolution::Vertices }
 }

@@ -12,13 +12,13 @@ pub use settings::Settings;
 pub use settle::Settled;
 
 use crate::contact::pads::Pads;
-use crate::contact::{self, Sample};
+use crate::contact::{Bodies, Sample};
 use crate::grasp::Grasp;
 use crate::hand::Fingers;
 use crate::object::Object;
 use crate::self_contact::SelfContact;
 use crate::shell::{Momentum, Shell};
-use crate::surroundings::{Head, Surroundings};
+use crate::surroundings::Surroundings;
 use seeone_core::{Pose, TriangleMesh};
 
 /// Length of a frame, s.
@@ -31,6 +31,7 @@ pub struct World {
     rest: TriangleMesh,
     thickness_m: f64,
     surroundings: Surroundings,
+    bodies: Bodies,
     settings: Settings,
     self_contact: SelfContact,
     pads: Pads,
@@ -55,6 +56,7 @@ impl World {
             shell: Shell::new(object, placed),
             rest: mesh.clone(),
             thickness_m: used.fold(0.0, f64::max),
+            bodies: Bodies::new(surroundings.bodies(), &samples),
             surroundings,
             settings,
             self_contact: SelfContact::new(mesh),
@@ -79,6 +81,7 @@ impl World {
             fingers.begin_frame();
             self.pads.begin_frame(&self.shell, fingers);
         }
+        self.bodies.begin_frame(&self.shell);
         let mut given = Momentum::zero();
         for substep in 1..=substeps {
             self.substep(substep as f64 / substeps as f64, h, &mut given);
@@ -106,16 +109,10 @@ impl World {
         if settings.self_contact {
             self.self_contact.solve(&mut shell.position, &shell.inverse_mass);
         }
-        let frictions = &surroundings.frictions;
         if let Some(fingers) = fingers {
-            self.pads.solve(shell, fingers, frictions.pad, h);
+            self.pads.solve(shell, fingers, surroundings.frictions.pad, h);
         }
-        if let Some(head) = &surroundings.head {
-            contact::with_ellipsoid(shell, &Head::shape(), &head.pose, frictions.head, h, given);
-        }
-        if surroundings.table {
-            contact::with_table(shell, frictions.table, h, given);
-        }
+        self.bodies.solve(shell, h, given);
         if let (Some(fingers), Some(grasp)) = (fingers, grasp) {
             grasp.draw(shell, &fingers.now, h);
         }

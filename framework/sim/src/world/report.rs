@@ -1,8 +1,9 @@
 //! What can be asked of a world.
 
 use super::{FRAME_S, World, WorldFault};
+use crate::contact::Body;
 use crate::hand::Hand;
-use crate::surroundings::{Head, Surroundings};
+use crate::surroundings::Surroundings;
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
 
@@ -84,14 +85,22 @@ impl World {
         self.shell.shape_residual()
     }
 
-    /// Smallest distance of the object's surface from the head, metres, negative inside;
-    /// `None` without a head.
+    /// Smallest distance of the object's surface from the head, its ears and neck, metres,
+    /// negative inside; `None` without a head.
     pub fn min_signed_distance_to_head(&self) -> Option<f64> {
-        let head = self.surroundings.head?;
-        let shape = Head::shape();
-        let distance =
-            |p: Point3<f64>| shape.signed_distance(&head.pose.inverse_transform_point(&p)).0;
-        let samples = self.pads.samples().iter();
-        Some(samples.map(|s| distance(s.at(&self.shell.position))).fold(f64::INFINITY, f64::min))
+        self.surroundings.head.map(|head| self.clearance(&head.bodies(0.0)))
+    }
+
+    /// Smallest distance of the object's surface from the hook's peg, metres, negative
+    /// inside; `None` without a hook.
+    pub fn min_signed_distance_to_peg(&self) -> Option<f64> {
+        self.surroundings.hook.map(|hook| self.clearance(&hook.peg(0.0)))
+    }
+
+    /// Smallest distance of any sample of the object from any of `bodies`, metres.
+    fn clearance(&self, bodies: &[Body]) -> f64 {
+        let samples = self.pads.samples().iter().map(|s| s.at(&self.shell.position));
+        let nearest = |p| bodies.iter().map(|b| b.distance(&p)).fold(f64::INFINITY, f64::min);
+        samples.map(nearest).fold(f64::INFINITY, f64::min)
     }
 }

@@ -41,7 +41,7 @@ pub fn floating() -> Settings {
 
 /// The cap settled on a head whose centre is 0.3 m over the table.
 pub fn worn() -> World {
-    let head = Head { pose: Pose::translation(0.0, 0.0, 0.3) };
+    let head = Head::medium(Pose::translation(0.0, 0.0, 0.3));
     let surroundings = Surroundings { table: true, head: Some(head), ..Default::default() };
     let placed = Pose::translation(0.0, 0.0, 0.32);
     let mut world = World::new(&a_cap(), &placed, surroundings, Settings::default());
