@@ -8,7 +8,7 @@ use seeone_core::Pose;
 
 /// Semi-axes of the medium head's cranium, metres, along x (ear to ear), y (where the face
 /// looks) and z (up): a breadth of 154 mm and a length of 198 mm, the means of men in
-/// ANSUR II within a millimetre. As an ellipse they give a circumference of 0.556 m.
+/// ANSUR II within a millimetre. As an ellipse they give a circumference of 0.555 m.
 pub const HEAD_SEMI_AXES_M: [f64; 3] = [0.077, 0.099, 0.110];
 
 /// Smallest and largest semi-axis of a head, metres: circumferences well beyond the 0.445
@@ -34,7 +34,7 @@ pub struct HeadSize {
 impl HeadSize {
     /// A circumference of 0.535 m.
     pub const SMALL: Self = Self::scaled(0.535);
-    /// A circumference of 0.556 m.
+    /// A circumference of 0.555 m.
     pub const MEDIUM: Self = Self { semi_axes_m: HEAD_SEMI_AXES_M };
     /// A circumference of 0.580 m.
     pub const LARGE: Self = Self::scaled(0.580);
@@ -45,7 +45,7 @@ impl HeadSize {
     /// The medium head scaled to a circumference.
     const fn scaled(circumference_m: f64) -> Self {
         let [x, y, z] = HEAD_SEMI_AXES_M;
-        let scale = circumference_m / 0.5557;
+        let scale = circumference_m / 0.5551;
         Self { semi_axes_m: [x * scale, y * scale, z * scale] }
     }
 
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn sizes_have_their_circumferences() {
-        for ((name, size), expected) in HeadSize::NAMED.into_iter().zip([0.535, 0.556, 0.580]) {
+        for ((name, size), expected) in HeadSize::NAMED.into_iter().zip([0.535, 0.555, 0.580]) {
             assert!((size.circumference_m() - expected).abs() < 5e-4, "{name}");
         }
         assert!(HeadSize::of_semi_axes([0.0, 0.1, 0.1]).is_none());
