@@ -11,7 +11,7 @@ fn check_tells_the_faults_of_every_file() {
     assert_eq!(sound.status, Some(0), "{}", sound.stderr);
     let places = [
         bench.set_line(SKILL, "lift_m", "lift_m = 99.0"),
-        bench.set_line(SCENE, "semi_axes_m", "semi_axes_m = [0.1, 0.1]"),
+        bench.set_line(SCENE, "size", "semi_axes_m = [0.1, 0.1]"),
         bench.set_line(ROBOT, "urdf", "urdf = 3"),
     ];
     let files = [&skill, &scene, &robot];

@@ -10,7 +10,7 @@ fn a_wrong_scene_is_told() {
         &[
             ("syntax", "name", "name = \"head", "C002", ""),
             ("unknown key", "friction", "fiction = 0.6", "C012", "did you mean \"friction\"?"),
-            ("flat head", "semi_axes_m", "semi_axes_m = [0.0, 0.1, 0.1]", "C020", "semi_axes_m"),
+            ("flat head", "size", "semi_axes_m = [0.0, 0.1, 0.1]", "C020", "semi_axes_m"),
             (
                 "no pixels",
                 "intrinsics",

@@ -11,9 +11,9 @@ use seeone_sim::WearError;
 use seeone_sim::cell::Cell;
 use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
-use seeone_sim::surroundings::{Frictions, HEAD_SEMI_AXES_M, Head, Surroundings};
+use seeone_sim::surroundings::{Frictions, Head, Surroundings};
 use seeone_sim::world::Settings;
-use seeone_sim::worn::{Worn, worn};
+use seeone_sim::worn::{Worn, worn_on};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 /// How long a released object may rock before the verdict, seconds.
@@ -37,14 +37,15 @@ impl SimulatedCell {
     pub fn drop(scene: &Scene, object: Object, seed: u64) -> Result<Self> {
         check(scene)?;
         let settings = Settings::default();
-        let worn = worn(&object, &settings).map_err(|fault| {
+        let head = Head { pose: scene.head.pose, size: scene.head.size };
+        let worn = worn_on(&object, head.size, &settings).map_err(|fault| {
             Diagnostic::new("O006", format!("object \"{}\": {fault}", object.name()))
                 .hint("import it for another --head-circumference, or choose another object")
         })?;
-        let head = Head { pose: scene.head.pose };
         let surroundings = Surroundings {
             table: true,
             head: Some(head),
+            hook: None,
             frictions: Frictions {
                 table: scene.table.friction,
                 head: scene.head.friction,
@@ -76,15 +77,6 @@ impl SimulatedCell {
 
 /// What the simulated world has one form of.
 fn check(scene: &Scene) -> Result<(), Diagnostic> {
-    let head = scene.head.semi_axes_m;
-    let same = head.iter().zip(HEAD_SEMI_AXES_M).all(|(a, b)| (a - b).abs() < 1e-9);
-    if !same {
-        let cause = format!(
-            "the simulated head has semi-axes {HEAD_SEMI_AXES_M:?} m; the scene asks for {:?}",
-            head.as_slice()
-        );
-        return Err(Diagnostic::new("C030", cause).hint("give the head those semi_axes_m"));
-    }
     if scene.table.height_m != 0.0 {
         let cause = format!("the simulated table's top is z = 0, not {} m", scene.table.height_m);
         return Err(Diagnostic::new("C030", cause).hint("move the robot's base instead"));

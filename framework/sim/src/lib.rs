@@ -13,6 +13,7 @@ pub mod import;
 pub mod object;
 pub mod object_file;
 pub mod picture;
+pub mod put_on;
 pub mod raster;
 pub mod rigid_fit;
 pub mod scenery;

@@ -43,8 +43,8 @@ pub fn head(head: &Head) -> TriangleMesh {
         let semi_axes = semi_axes.add_scalar(-HEAD_INSET_M);
         ellipsoid(&semi_axes, &(head.pose * Translation3::from(middle)))
     };
-    let ([top, bottom], radius) = head.size.neck();
-    let [right, left] = head.size.ears().map(ear);
+    let ([top, bottom], radius) = head.neck();
+    let [right, left] = head.ears().map(ear);
     joined(&[
         ellipsoid(&semi_axes.add_scalar(-HEAD_INSET_M), &head.pose),
         ellipsoid(&nose_axes, &(head.pose * Translation3::from(nose))),

@@ -3,10 +3,12 @@
 mod head;
 mod hook;
 
-pub use head::{HEAD_SEMI_AXES_M, Head, HeadSize};
+pub use head::Head;
 pub use hook::{Hook, PEG_BALL_RADIUS_M, PEG_LENGTH_M, PEG_RADIUS_M};
 
 use crate::contact::{Body, Resolution, Shape};
+pub use seeone_core::head::{HEAD_SEMI_AXES_M, HeadSize};
+
 use seeone_core::Pose;
 
 /// Coulomb friction coefficients.

@@ -94,7 +94,7 @@ pub fn template(object: &Object, size: HeadSize) -> Pose {
         .map(|v| vertices[*v].coords)
         .fold((infinite, -infinite), |(low, high), v| (low.inf(&v), high.sup(&v)));
     let middle = if hem.is_empty() { Vector3::zeros() } else { (low + high) / 2.0 };
-    let cranium = size.cranium();
+    let cranium = Head { pose: Pose::identity(), size }.cranium();
     let clearance = |z: f64| {
         let shift = Vector3::new(-middle.x, -middle.y, z);
         vertices

@@ -10,7 +10,7 @@ use crate::run::Assignment;
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use seeone_core::formats::ply::{Encoding, write_cloud};
 use seeone_core::robot::RobotOptions;
-use seeone_core::{Cloud, Intrinsics, Pose, Similarity};
+use seeone_core::{Cloud, HeadSize, Intrinsics, Pose, Similarity};
 use seeone_plugin::{
     Action, Camera, Felt, GripperCommand, Judge, Measure, Observation, PluginError, Robot,
     RobotSample, RobotState, Verdict,
@@ -258,7 +258,7 @@ fn scene(head: Pose) -> Scene {
         name: "head".into(),
         object: "fake-cap".into(),
         table: Table { height_m: 0.0, soft_m: 0.03, friction: 0.6 },
-        head: Head { pose: head, semi_axes_m: Vector3::new(0.077, 0.099, 0.11), friction: 0.5 },
+        head: Head { pose: head, size: HeadSize::MEDIUM, friction: 0.5 },
         camera_plugin: None,
         camera_cloud: None,
         camera: Pose::identity(),

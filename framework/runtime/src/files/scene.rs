@@ -1,8 +1,8 @@
 //! A scene: what stands where, and which object lies on the table.
 
-use nalgebra::{Point2, Point3, Vector2, Vector3};
+use nalgebra::{Point2, Point3, Vector2};
 use seeone_core::pose::PoseFields;
-use seeone_core::{Intrinsics, Pose};
+use seeone_core::{HeadSize, Intrinsics, Pose};
 use seeone_plugin::motion::Obstacle;
 use std::path::PathBuf;
 
@@ -17,13 +17,13 @@ pub struct Table {
     pub friction: f64,
 }
 
-/// The head, an ellipsoid: z up, +y where the face looks.
+/// The head: z up, +y where the face looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Head {
     /// Its frame in `world`.
     pub pose: Pose,
-    /// Semi-axes along its x, y and z, metres.
-    pub semi_axes_m: Vector3<f64>,
+    /// How large it is.
+    pub size: HeadSize,
     /// Coulomb friction of its surface.
     pub friction: f64,
 }
@@ -76,7 +76,7 @@ impl Scene {
                 name: "head".into(),
                 centre: Point3::from(self.head.pose.translation.vector),
                 rotation: self.head.pose.rotation,
-                semi_axes_m: self.head.semi_axes_m,
+                semi_axes_m: self.head.size.semi_axes_m(),
             },
         ]
     }

@@ -5,8 +5,9 @@ use super::resolver::Resolver;
 use super::source::Source;
 use super::{Drop, Head, KnownMethods, Scene, Table};
 use nalgebra::{Point2, Vector2};
+use seeone_core::head::SEMI_AXIS_M;
 use seeone_core::pose::PoseFields;
-use seeone_core::{Diagnostic, Intrinsics};
+use seeone_core::{Diagnostic, HeadSize, Intrinsics};
 use seeone_plugin::Kind;
 use serde::Deserialize;
 use std::path::Path;
@@ -37,7 +38,8 @@ struct RawTable {
 #[serde(deny_unknown_fields)]
 struct RawHead {
     pose: Spanned<PoseFields>,
-    semi_axes_m: Spanned<[f64; 3]>,
+    size: Option<Spanned<String>>,
+    semi_axes_m: Option<Spanned<[f64; 3]>>,
     friction: Spanned<f64>,
 }
 
@@ -85,7 +87,7 @@ impl Scene {
             },
             head: Head {
                 pose: resolver.pose("pose", &raw.head.pose),
-                semi_axes_m: resolver.vector("semi_axes_m", &raw.head.semi_axes_m, 0.01..=0.5),
+                size: head_size(&mut resolver, &raw.head),
                 friction: resolver.number("friction", &raw.head.friction, 0.0..=2.0),
             },
             camera_plugin: camera_plugin(&mut resolver, raw.camera.plugin.as_ref(), known),
@@ -100,6 +102,39 @@ impl Scene {
         };
         resolver.finish(scene)
     }
+}
+
+/// The head's size: either its name or its semi-axes.
+fn head_size(resolver: &mut Resolver, raw: &RawHead) -> HeadSize {
+    let size = match (&raw.size, &raw.semi_axes_m) {
+        (Some(name), None) => named_size(resolver, name),
+        (None, Some(axes)) => {
+            let [low, high] = SEMI_AXIS_M;
+            HeadSize::of_semi_axes(resolver.numbers("semi_axes_m", axes, low..=high))
+        }
+        (Some(_), Some(axes)) => {
+            let cause = "the head has a size already";
+            resolver.fault(Fault::Order, axes.span(), cause);
+            None
+        }
+        (None, None) => {
+            let cause = "the head has neither a size nor semi_axes_m";
+            resolver.fault(Fault::MissingKey, raw.pose.span(), cause);
+            None
+        }
+    };
+    size.unwrap_or(HeadSize::MEDIUM)
+}
+
+fn named_size(resolver: &mut Resolver, name: &Spanned<String>) -> Option<HeadSize> {
+    let size = HeadSize::named(name.get_ref());
+    if size.is_none() {
+        let cause = format!("there is no head of the size {:?}", name.get_ref());
+        let fault = resolver.source.fault(Fault::Reference, name.span(), cause);
+        let names = HeadSize::NAMED.into_iter().map(|(name, _)| name);
+        resolver.note(fault.suggest(name.get_ref(), names));
+    }
+    size
 }
 
 fn camera_plugin(

@@ -4,7 +4,7 @@ use super::*;
 use nalgebra::{Point3, Vector3};
 use seeone_core::formats::ply::{Encoding, write_cloud};
 use seeone_core::random::{generator, uniform};
-use seeone_core::{Cloud, Diagnostic, Pose};
+use seeone_core::{Cloud, Diagnostic, HeadSize, Pose};
 use seeone_plugin::{GripperCommand, Measure};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -133,6 +133,10 @@ fn a_scene_is_read_and_tells_frames_and_obstacles() {
     assert_eq!(scene.frame("head").unwrap().translation.vector, Vector3::new(0.35, 0.4, 0.28));
     assert_eq!(scene.frame("hook"), None);
     assert_eq!(scene.obstacles().len(), 2);
+    assert_eq!(scene.head.size, HeadSize::MEDIUM);
+    let large = SCENE.replace("semi_axes_m = [0.077, 0.099, 0.110]", "size = \"large\"");
+    let scene = Scene::read(&written(&folder, &large), &known()).unwrap();
+    assert_eq!(scene.head.size, HeadSize::LARGE);
     let table = scene.camera_table();
     assert_eq!(table["intrinsics"]["width"].as_integer(), Some(640));
     assert_eq!(table["crop"]["floor_m"].as_float(), Some(0.0));
@@ -245,6 +249,21 @@ fn faults_of_a_scene_are_told() {
         ("width = 640", "width = 0", "error[C020]: a.toml:12:14: an image of 0 x 480 pixels"),
         ("width = 640", "width = -1", "error[C013]: a.toml:12:24:"),
         ("0.077", "0.0", "error[C020]: a.toml:8:15: semi_axes_m = 0"),
+        (
+            "semi_axes_m = [0.077, 0.099, 0.110]",
+            "size = \"larg\"",
+            "error[C024]: a.toml:8:8: there is no head of the size \"larg\"\n\nhint: did you mean \"large\"?",
+        ),
+        (
+            "semi_axes_m = [0.077, 0.099, 0.110]",
+            "size = \"large\"\nsemi_axes_m = [0.077, 0.099, 0.110]",
+            "error[C023]: a.toml:9:15: the head has a size already",
+        ),
+        (
+            "semi_axes_m = [0.077, 0.099, 0.110]",
+            "",
+            "error[C011]: a.toml:7:8: the head has neither a size nor semi_axes_m",
+        ),
         ("friction = 0.5", "friction = inf", "error[C003]: a.toml:9:12"),
     ];
     for (from, to, expected) in cases {

@@ -109,7 +109,7 @@ impl Assignment {
                 "table_height_m": table.height_m,
                 "table_friction": table.friction,
                 "head": pose(&head.pose),
-                "head_semi_axes_m": head.semi_axes_m.as_slice(),
+                "head_semi_axes_m": head.size.semi_axes_m().as_slice(),
                 "head_friction": head.friction,
                 "camera": pose(camera),
                 "drop_centre_xy_m": drop.centre.coords.as_slice(),
