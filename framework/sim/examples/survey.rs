@@ -14,7 +14,7 @@ use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut given: Vec<String> = std::env::args().skip(1).collect();
-    let mut size = HeadSize::Medium;
+    let mut size = HeadSize::MEDIUM;
     if let Some(at) = given.iter().position(|a| a == "--head") {
         let flag: Vec<String> = given.drain(at..(at + 2).min(given.len())).collect();
         size = flag.get(1).and_then(|s| HeadSize::named(s)).ok_or("no head has this size")?;
