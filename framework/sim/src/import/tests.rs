@@ -51,7 +51,7 @@ fn skipped() {
 
 /// A generated cap, its axes exchanged, scaled and turned inside out.
 fn disguised(scale: f64) -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
-    let cap = cap::named("cap-validation-01").expect("a cap");
+    let cap = cap::named("cap-validation-02").expect("a cap");
     let vertices =
         cap.mesh().vertices().iter().map(|v| Point3::new(-v.y, v.z, -v.x) * scale).collect();
     (vertices, cap.mesh().triangles().iter().map(|t| [t[0], t[2], t[1]]).collect())

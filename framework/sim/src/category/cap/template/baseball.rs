@@ -1,9 +1,8 @@
 //! Baseball caps.
 //!
-//! Shapes: six panels, hem to apex 95 to 135 mm, visors of 65 to 80 mm over 55 to 70 degrees
-//! to each side, flat to bent by 35 mm, all widened a little so that what is learnt on them
-//! also holds for caps that this generator did not make; crowns end at 130 mm. Hems:
-//! [`decision 5`](https://github.com), sized for the head.
+//! Real ones measure 95 to 135 mm from hem to apex and have visors of 65 to 80 mm over 55 to
+//! 70 degrees to each side, flat or bent by up to 35 mm. The ranges are widened a little, so
+//! that what is learnt on them also holds for caps that this generator did not make.
 
 use super::{BrimPattern, Pattern, StrapHole};
 use crate::category::cap::shape::{Range, Shape};
