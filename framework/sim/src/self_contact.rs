@@ -5,10 +5,12 @@
 //! pushed through in one substep is brought back in the next.
 
 mod grid;
+mod tangle;
 
 use grid::Grid;
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
+use tangle::Tangle;
 
 /// Smallest distance kept between two layers, metres: two half thicknesses of 1.5 mm.
 const SEPARATION_M: f64 = 3.0e-3;
@@ -31,8 +33,14 @@ const OVERLAP: f64 = 0.02;
 struct Pair {
     triangle: u32,
     vertex: u32,
-    /// +1 on the side that the normal points to, -1 on the other.
+    /// +1 on the side that the normal points to, -1 on the other, 0 in a tangle.
     side: f64,
+}
+
+impl Pair {
+    fn key(&self) -> (u32, u32) {
+        (self.triangle, self.vertex)
+    }
 }
 
 /// The self-contact of one shell.
@@ -47,6 +55,7 @@ pub struct SelfContact {
     fresh: Vec<Pair>,
     /// Where the vertices were when the pairs were found; empty before the first time.
     found_at: Vec<Point3<f64>>,
+    tangle: Tangle,
 }
 
 /// Where a vertex is above a triangle.
@@ -89,15 +98,25 @@ impl SelfContact {
             pairs: Vec::new(),
             fresh: Vec::new(),
             found_at: Vec::new(),
+            tangle: Tangle::new(mesh),
         }
     }
 
     /// Keeps the layers apart in one substep. The pushes conserve momentum.
-    pub fn solve(&mut self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
+    pub fn solve(
+        &mut self,
+        position: &mut [Point3<f64>],
+        previous: &mut [Point3<f64>],
+        inverse_mass: &[f64],
+    ) {
         if self.is_stale(position) {
             self.find(position);
         }
-        self.push(position, inverse_mass);
+        if self.tangle.look(&self.triangles, position) {
+            self.set_sides(position);
+        }
+        self.tangle.undo(&self.triangles, position, previous, inverse_mass);
+        self.push(position, previous, inverse_mass);
     }
 
     /// Whether a pair may have come near since the pairs were found. Motion that all
@@ -126,7 +145,7 @@ impl SelfContact {
                     return;
                 }
                 let key = (t as u32, vertex);
-                let known = pairs.binary_search_by_key(&key, |p| (p.triangle, p.vertex));
+                let known = pairs.binary_search_by_key(&key, Pair::key);
                 let side = match known {
                     Ok(index) if above.is_over(OVERLAP) => pairs[index].side,
                     _ => above.height.signum(),
@@ -134,11 +153,41 @@ impl SelfContact {
                 fresh.push(Pair { triangle: t as u32, vertex, side });
             });
         }
-        fresh.sort_unstable_by_key(|p| (p.triangle, p.vertex));
+        fresh.sort_unstable_by_key(Pair::key);
         std::mem::swap(pairs, fresh);
     }
 
-    fn push(&mut self, position: &mut [Point3<f64>], inverse_mass: &[f64]) {
+    /// Takes the memory of its side from whatever is pierced: one end of a piercing edge is
+    /// on the wrong side, and nothing tells which. What is free again remembers where it is.
+    fn set_sides(&mut self, position: &[Point3<f64>]) {
+        let find = |pairs: &[Pair], key: (u32, u32)| pairs.binary_search_by_key(&key, Pair::key);
+        for pair in self.pairs.iter_mut().filter(|p| p.side == 0.0) {
+            let corners = self.triangles[pair.triangle as usize].map(|v| position[v as usize]);
+            let above = above(&position[pair.vertex as usize], &corners);
+            pair.side = above.map_or(0.0, |a| a.height.signum());
+        }
+        for piercing in self.tangle.piercings() {
+            for vertex in self.tangle.ends(piercing) {
+                if let Ok(index) = find(&self.pairs, (piercing.triangle, vertex)) {
+                    self.pairs[index].side = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Every edge that now pierces a triangle, counted.
+    pub fn crossings(&self, position: &[Point3<f64>]) -> usize {
+        let mut tangle = self.tangle.clone();
+        tangle.find(&self.triangles, position);
+        tangle.piercings().len()
+    }
+
+    fn push(
+        &mut self,
+        position: &mut [Point3<f64>],
+        previous: &[Point3<f64>],
+        inverse_mass: &[f64],
+    ) {
         for pair in &mut self.pairs {
             let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
             let corners = ids.map(|v| position[v]);
@@ -158,7 +207,12 @@ impl SelfContact {
             if inverse <= 0.0 {
                 continue;
             }
-            let push = (SEPARATION_M - gap).min(PUSH_SHARE * SEPARATION_M) * pair.side / inverse;
+            let moved = |v: usize| position[v] - previous[v];
+            let under: Vector3<f64> =
+                ids.iter().zip(above.weights).map(|(v, b)| moved(*v) * b).sum();
+            let approach = (under - moved(vertex)).dot(&above.normal) * pair.side;
+            let most = approach.max(0.0) + PUSH_SHARE * SEPARATION_M;
+            let push = (SEPARATION_M - gap).min(most) * pair.side / inverse;
             position[vertex] += above.normal * (push * inverse_mass[vertex]);
             for (v, b) in ids.into_iter().zip(above.weights) {
                 position[v] -= above.normal * (push * inverse_mass[v] * b);
@@ -207,9 +261,11 @@ mod tests {
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0 }],
             fresh: Vec::new(),
             found_at: points.clone(),
+            tangle: Tangle::new(&TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh")),
         };
         for _ in 0..100 {
-            contact.solve(&mut points, &[1.0; 4]);
+            let mut previous = points.clone();
+            contact.solve(&mut points, &mut previous, &[1.0; 4]);
         }
         let corners = [points[0], points[1], points[2]];
         let height = above(&points[3], &corners).expect("a triangle").height;

@@ -19,7 +19,7 @@ pub use motion::Momentum;
 use crate::object::{Object, Region};
 use bend::Bend;
 use cluster::{Cluster, Firmness};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 use seeone_core::Pose;
 use stretch::Stretch;
 
@@ -47,6 +47,8 @@ pub struct Shell {
     bend: Bend,
     /// The whole object first, then its stiffened regions.
     clusters: Vec<Cluster>,
+    /// For each vertex the cluster that moves as a free rigid body with it.
+    rigid_part: Vec<Option<usize>>,
 }
 
 impl Shell {
@@ -64,7 +66,7 @@ impl Shell {
         let stiffened = [Region::Front, Region::Brim]
             .map(|region| cluster(&object.vertices_of(region), firmness(object, region)));
         let clusters = [cluster(&everything, whole)].into_iter().chain(stiffened).flatten();
-        Self {
+        let mut shell = Self {
             previous: position.clone(),
             velocity: vec![Vector3::zeros(); position.len()],
             inverse_mass: mass.iter().map(|m| 1.0 / m).collect(),
@@ -72,9 +74,12 @@ impl Shell {
             stretch: Stretch::new(mesh, &edges),
             bend: Bend::new(object, &edges),
             clusters: clusters.collect(),
+            rigid_part: vec![None; mass.len()],
             position,
             mass,
-        }
+        };
+        shell.pin(&[]);
+        shell
     }
 
     /// Moves every free vertex by its velocity under `gravity` (m/s2). Velocity decays at
@@ -115,6 +120,7 @@ impl Shell {
     pub fn rest_at(&mut self, position: &[Point3<f64>]) {
         self.position.copy_from_slice(position);
         self.velocity.fill(Vector3::zeros());
+        self.bend.forget();
     }
 
     /// Whether every position and velocity is finite.
@@ -132,14 +138,32 @@ impl Shell {
         vertices.iter().for_each(|v| self.inverse_mass[*v] = 0.0);
         // Only rigid parts follow the grip: were the weak cluster of the whole object led
         // too, its far side would be flung.
-        for c in self.clusters.iter_mut().filter(|c| c.firmness() == Firmness::Rigid) {
-            c.lead(|v| vertices.contains(&v));
+        self.rigid_part.fill(None);
+        for (index, c) in self.clusters.iter_mut().enumerate() {
+            if c.firmness() == Firmness::Rigid && !c.lead(|v| vertices.contains(&v)) {
+                c.vertices().for_each(|v| self.rigid_part[v] = Some(index));
+            }
+        }
+    }
+
+    /// How far `vertex` yields to an impulse when its rigid part moves with it, 1/kg;
+    /// `None` for a vertex that is soft, or whose part is held.
+    #[inline]
+    pub fn yielding(&self, vertex: usize) -> Option<Matrix3<f64>> {
+        self.rigid_part[vertex].map(|c| self.clusters[c].yielding(&self.position[vertex]))
+    }
+
+    /// Moves the rigid part of `vertex` as `impulse` there would within this substep, kg m.
+    pub fn push_part(&mut self, vertex: usize, impulse: &Vector3<f64>) {
+        if let Some(part) = self.rigid_part[vertex] {
+            let at = self.position[vertex];
+            self.clusters[part].push(&mut self.position, impulse, &at);
         }
     }
 
     /// Whether `vertex` belongs to a rigid part.
     pub fn is_rigid(&self, vertex: usize) -> bool {
-        self.clusters.iter().any(|c| c.firmness() == Firmness::Rigid && c.contains(vertex))
+        self.clusters.iter().any(|c| c.firmness() == Firmness::Rigid && c.vertices().any(|v| v == vertex))
     }
 
     /// Stretching, bending and cluster energy, J.
@@ -152,6 +176,17 @@ impl Shell {
     /// Mean and largest absolute strain of the edges.
     pub fn strain(&self) -> (f64, f64) {
         self.stretch.strain(&self.position)
+    }
+
+    /// The absolute strain that `share` (0 to 1) of the edges do not exceed.
+    pub fn strain_quantile(&self, share: f64) -> f64 {
+        self.stretch.strain_quantile(&self.position, share)
+    }
+
+    /// Root mean square angle between the hinges inside `region` and their rest angles,
+    /// radians; 0 for a region without a hinge.
+    pub fn hinge_error(&self, region: Region) -> f64 {
+        self.bend.error(&self.position, region)
     }
 
     /// Root mean square distance of the vertices from the nearest rigid copy of the rest

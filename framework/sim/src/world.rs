@@ -4,6 +4,7 @@ mod fault;
 mod grip;
 mod placement;
 mod report;
+mod roll;
 mod settings;
 mod settle;
 
@@ -93,6 +94,7 @@ impl World {
             self.shell.rest_at(&last_whole);
             return;
         }
+        self.resist_rolling(&given);
         self.tend_grip(&before, &given);
     }
 
@@ -107,7 +109,8 @@ impl World {
         }
         shell.solve(h);
         if settings.self_contact {
-            self.self_contact.solve(&mut shell.position, &shell.inverse_mass);
+            let Shell { position, previous, inverse_mass, .. } = shell;
+            self.self_contact.solve(position, previous, inverse_mass);
         }
         if let Some(fingers) = fingers {
             self.pads.solve(shell, fingers, surroundings.frictions.pad, h);

@@ -1,5 +1,6 @@
 //! Contact of a shell with the rigid bodies at rest around it.
 
+use super::resolve::push_out;
 use super::{Body, Resolution, Sample};
 use crate::shell::{Momentum, Shell};
 use crate::world::FRAME_S;
@@ -51,26 +52,13 @@ impl Bodies {
     /// Adds what they gave the shell to `given`.
     pub fn solve(&self, shell: &mut Shell, h: f64, given: &mut Momentum) {
         for (body, near) in &self.bodies {
-            for vertex in &near.vertices {
-                with_vertex(shell, *vertex, body, h, given);
-            }
+            let vertices = near.vertices.iter().copied();
+            push_out(shell, vertices, |p| body.touch(p), body.friction, h, given);
             for sample in &near.between {
                 with_sample(shell, sample, body, h, given);
             }
         }
     }
-}
-
-#[inline]
-fn with_vertex(shell: &mut Shell, vertex: usize, body: &Body, h: f64, given: &mut Momentum) {
-    let Some(touch) = body.touch(&shell.position[vertex]) else { return };
-    if shell.inverse_mass[vertex] <= 0.0 {
-        return;
-    }
-    let moved = shell.position[vertex] - shell.previous[vertex];
-    let (correction, _) = touch.correction(&moved, body.friction, h);
-    shell.position[vertex] += correction;
-    given.add(&(correction * (shell.mass[vertex] / h)), &shell.position[vertex]);
 }
 
 fn with_sample(shell: &mut Shell, sample: &Sample, body: &Body, h: f64, given: &mut Momentum) {

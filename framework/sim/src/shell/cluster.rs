@@ -42,8 +42,11 @@ struct Member {
 pub struct Cluster {
     members: Vec<Member>,
     total: f64,
+    /// About the centre at rest, 1/(kg m2).
+    inverse_inertia: Matrix3<f64>,
     firmness: Firmness,
     rotation: UnitQuaternion<f64>,
+    centre: Vector3<f64>,
 }
 
 /// Weight of a held vertex against a free one's in the cluster that a grip leads.
@@ -71,7 +74,14 @@ impl Cluster {
             arm: Vector3::zeros(),
         };
         let members = vertices.iter().map(member).collect();
-        let mut cluster = Self { members, total: 0.0, firmness, rotation };
+        let mut cluster = Self {
+            members,
+            total: 0.0,
+            inverse_inertia: Matrix3::zeros(),
+            firmness,
+            rotation,
+            centre: Vector3::zeros(),
+        };
         cluster.measure();
         Some(cluster)
     }
@@ -81,24 +91,58 @@ impl Cluster {
         self.firmness
     }
 
-    /// Whether `vertex` belongs to it.
-    pub fn contains(&self, vertex: usize) -> bool {
-        self.members.iter().any(|m| m.vertex == vertex)
+    /// Its vertices.
+    pub fn vertices(&self) -> impl Iterator<Item = usize> {
+        self.members.iter().map(|m| m.vertex)
     }
 
-    /// Lets the vertices that `held` names lead the fit, and no others.
-    pub fn lead(&mut self, held: impl Fn(usize) -> bool) {
+    /// Lets the vertices that `held` names lead the fit, and no others. Whether there are
+    /// any.
+    pub fn lead(&mut self, held: impl Fn(usize) -> bool) -> bool {
+        let mut led = false;
         for m in &mut self.members {
-            m.weight = if held(m.vertex) { m.mass * HELD_WEIGHT } else { m.mass };
+            let leads = held(m.vertex);
+            m.weight = if leads { m.mass * HELD_WEIGHT } else { m.mass };
+            led |= leads;
         }
         self.measure();
+        led
     }
 
     fn measure(&mut self) {
         self.total = self.members.iter().map(|m| m.weight).sum();
         let sum: Vector3<f64> = self.members.iter().map(|m| m.rest.coords * m.weight).sum();
         let centre = Point3::from(sum / self.total);
-        self.members.iter_mut().for_each(|m| m.arm = m.rest - centre);
+        let mut inertia = Matrix3::zeros();
+        for m in &mut self.members {
+            m.arm = m.rest - centre;
+            let square = Matrix3::identity() * m.arm.norm_squared() - m.arm * m.arm.transpose();
+            inertia += square * m.weight;
+        }
+        self.inverse_inertia = inertia.try_inverse().unwrap_or_default();
+    }
+
+    /// How far the point `at` of the cluster, moving as a rigid body where it was last
+    /// solved, yields to an impulse, 1/kg.
+    pub fn yielding(&self, at: &Point3<f64>) -> Matrix3<f64> {
+        let arm = (at.coords - self.centre).cross_matrix();
+        Matrix3::identity() / self.total - arm * self.turned_inverse_inertia() * arm
+    }
+
+    /// Moves the cluster as a rigid body by `impulse` at the point `at`, kg m.
+    pub fn push(&self, position: &mut [Point3<f64>], impulse: &Vector3<f64>, at: &Point3<f64>) {
+        let shift = impulse / self.total;
+        let arm = at.coords - self.centre;
+        let turn = self.turned_inverse_inertia() * arm.cross(impulse);
+        for m in &self.members {
+            let p = &mut position[m.vertex];
+            *p += shift + turn.cross(&(p.coords - self.centre));
+        }
+    }
+
+    fn turned_inverse_inertia(&self) -> Matrix3<f64> {
+        let turn = self.rotation.to_rotation_matrix();
+        turn.matrix() * self.inverse_inertia * turn.matrix().transpose()
     }
 
     /// The nearest rigid copy: its rotation and its centre.
@@ -116,7 +160,7 @@ impl Cluster {
     /// `inverse_mass` zero stays where it is.
     pub fn solve(&mut self, position: &mut [Point3<f64>], inverse_mass: &[f64], h: f64) {
         let (rotation, centre) = self.fit(position);
-        self.rotation = rotation;
+        (self.rotation, self.centre) = (rotation, centre);
         let gain = self.firmness.gain(h);
         let turn = rotation.to_rotation_matrix();
         for m in self.members.iter().filter(|m| inverse_mass[m.vertex] > 0.0) {

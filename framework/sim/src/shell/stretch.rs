@@ -66,9 +66,21 @@ impl Stretch {
 
     /// Mean and largest absolute strain over the edges.
     pub fn strain(&self, position: &[Point3<f64>]) -> (f64, f64) {
-        let strains = self.springs.iter().map(|s| s.excess(position).abs() / s.rest_m);
-        let (sum, worst) = strains.fold((0.0, 0.0f64), |(sum, worst), e| (sum + e, worst.max(e)));
+        let add = |(sum, worst): (f64, f64), e: f64| (sum + e, worst.max(e));
+        let (sum, worst) = self.strains(position).fold((0.0, 0.0), add);
         (sum / self.springs.len().max(1) as f64, worst)
+    }
+
+    /// The absolute strain that `share` (0 to 1) of the edges do not exceed.
+    pub fn strain_quantile(&self, position: &[Point3<f64>], share: f64) -> f64 {
+        let mut strains: Vec<f64> = self.strains(position).collect();
+        strains.sort_unstable_by(f64::total_cmp);
+        let last = strains.len().saturating_sub(1);
+        strains.get((share.clamp(0.0, 1.0) * last as f64).ceil() as usize).copied().unwrap_or(0.0)
+    }
+
+    fn strains(&self, position: &[Point3<f64>]) -> impl Iterator<Item = f64> {
+        self.springs.iter().map(|s| s.excess(position).abs() / s.rest_m)
     }
 }
 

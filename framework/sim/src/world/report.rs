@@ -3,6 +3,7 @@
 use super::{FRAME_S, World, WorldFault};
 use crate::contact::Body;
 use crate::hand::Hand;
+use crate::object::Region;
 use crate::surroundings::Surroundings;
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
@@ -78,6 +79,22 @@ impl World {
     /// Mean and largest absolute strain of the edges.
     pub fn strain(&self) -> (f64, f64) {
         self.shell.strain()
+    }
+
+    /// The absolute strain that `share` (0 to 1) of the edges do not exceed.
+    pub fn strain_quantile(&self, share: f64) -> f64 {
+        self.shell.strain_quantile(share)
+    }
+
+    /// Root mean square angle between the hinges of `region` and their rest angles,
+    /// radians; 0 for a region without a hinge.
+    pub fn hinge_error(&self, region: Region) -> f64 {
+        self.shell.hinge_error(region)
+    }
+
+    /// How many times an edge of the object pierces a triangle that it does not touch.
+    pub fn crossings(&self) -> usize {
+        self.self_contact.crossings(&self.shell.position)
     }
 
     /// Root mean square distance from the nearest rigid copy of the rest shape, metres.

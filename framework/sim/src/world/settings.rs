@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 /// How the world is advanced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Substeps of a frame of 1/60 s; 0 counts as 1. 20 suffice for drops, 40 for grips.
+    /// Substeps of a frame of 1/60 s; 0 counts as 1.
     pub substeps: usize,
     /// Gravity in world, m/s2.
     pub gravity: Vector3<f64>,
@@ -15,6 +15,15 @@ pub struct Settings {
     pub self_contact: bool,
 }
 
+impl Settings {
+    /// For objects that fall and come to rest: the fewest substeps at which 99 % of the
+    /// edges of every cap at rest are strained by less than 5 %.
+    pub fn for_drops() -> Self {
+        Self { substeps: 25, ..Self::default() }
+    }
+}
+
+/// For grips and for what is worn or hung.
 impl Default for Settings {
     fn default() -> Self {
         Self {

@@ -1,0 +1,108 @@
+//! Seeded drops of a cap, each followed to rest and then put back on the head.
+
+use nalgebra::Point3;
+use seeone_core::random::generator;
+use seeone_sim::drop::Drop;
+use seeone_sim::rigid_fit::rigid_fit;
+use seeone_sim::world::FRAME_S;
+use seeone_sim::worn::{template, worn};
+use seeone_sim::{Head, Object, Region, Settings, Surroundings, World};
+
+/// A drop that lasts longer than this counts as never at rest, s.
+pub const LIMIT_S: f64 = 6.0;
+/// Speed below which a cap rests, m/s, and for how many frames it must stay below.
+const REST_M_S: f64 = 0.010;
+const REST_FRAMES: usize = 15;
+
+/// What became of one drop.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub cap: String,
+    pub drop: u64,
+    pub finite: bool,
+    /// Lowest vertex of all frames over the table, metres.
+    pub lowest_m: f64,
+    /// When its deformation had come to rest for 0.25 s, s; `None` when it had not in time.
+    pub shape_rest_s: Option<f64>,
+    /// When all of its motion had.
+    pub rest_s: Option<f64>,
+    /// Root mean square speed at the end, m/s.
+    pub speed_m_s: f64,
+    pub strain_p99: f64,
+    /// Root mean square hinge error of the visor, degrees.
+    pub brim_deg: f64,
+    pub crossings: usize,
+    /// Mean distance of the vertices from the worn state after this drop and a new
+    /// settling on the head, metres; `None` when the cap does not come to rest on it.
+    pub worn_again_m: Option<f64>,
+    /// The same with the best rigid motion taken out: of the shape alone.
+    pub shape_again_m: Option<f64>,
+}
+
+/// Drops `cap` from the seeds 1 to `drops` and looks at each.
+pub fn study(cap: &Object, drops: u64, settings: &Settings) -> Vec<Outcome> {
+    let before = worn(cap, settings).ok().map(|w| w.vertices);
+    (1..=drops).map(|seed| one(cap, seed, settings, before.as_deref())).collect()
+}
+
+fn one(cap: &Object, seed: u64, settings: &Settings, worn: Option<&[Point3<f64>]>) -> Outcome {
+    let table = Surroundings { table: true, ..Surroundings::default() };
+    let drop = Drop::draw([0.0; 2], &mut generator(seed, cap.name()));
+    let mut world = drop.begin(cap, table, *settings);
+    let (mut lowest_m, mut shape_rest_s, mut rest_s) = (f64::INFINITY, None, None);
+    let (mut shape_calm, mut calm) = (0, 0);
+    for frame in 1..=(LIMIT_S / FRAME_S).round() as usize {
+        world.advance();
+        lowest_m = world.vertices().iter().map(|p| p.z).fold(lowest_m, f64::min);
+        let steady = world.deformation_rms_speed() < REST_M_S;
+        let still = steady && world.rms_speed() < REST_M_S;
+        shape_calm = if steady { shape_calm + 1 } else { 0 };
+        calm = if still { calm + 1 } else { 0 };
+        let now = Some(frame as f64 * FRAME_S);
+        if shape_calm >= REST_FRAMES {
+            shape_rest_s = shape_rest_s.or(now);
+        }
+        if calm >= REST_FRAMES {
+            rest_s = now;
+            break;
+        }
+    }
+    let again = worn.and_then(|w| worn_again(cap, world.vertices(), settings, w));
+    Outcome {
+        cap: cap.name().to_owned(),
+        drop: seed,
+        finite: world.fault().is_none(),
+        lowest_m,
+        shape_rest_s,
+        rest_s,
+        speed_m_s: world.rms_speed(),
+        strain_p99: world.strain_quantile(0.99),
+        brim_deg: world.hinge_error(Region::Brim).to_degrees(),
+        crossings: world.crossings(),
+        worn_again_m: again.map(|a| a.0),
+        shape_again_m: again.map(|a| a.1),
+    }
+}
+
+/// Puts the cap as it lies, turned back to its template pose, onto the head; lets it settle
+/// and compares.
+fn worn_again(
+    cap: &Object,
+    rested: &[Point3<f64>],
+    settings: &Settings,
+    worn: &[Point3<f64>],
+) -> Option<(f64, f64)> {
+    let head = Some(Head { pose: seeone_core::Pose::identity() });
+    let surroundings = Surroundings { head, ..Surroundings::default() };
+    let mut world = World::new(cap, &template(cap), surroundings, *settings);
+    let back = rigid_fit(rested, world.vertices());
+    let placed: Vec<_> = rested.iter().map(|p| back * p).collect();
+    world.set_vertices(&placed).ok()?;
+    let settled = world.settle(LIMIT_S);
+    let align = rigid_fit(world.vertices(), worn);
+    let mean = |moved: &dyn Fn(&Point3<f64>) -> Point3<f64>| {
+        let pairs = world.vertices().iter().zip(worn);
+        pairs.map(|(a, b)| (moved(a) - b).norm()).sum::<f64>() / worn.len() as f64
+    };
+    settled.at_rest.then(|| (mean(&|p| *p), mean(&|p| align * p)))
+}
