@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
 use seeone_core::random::{generator, normal, uniform};
-use seeone_core::winding::winding_number;
+use seeone_core::winding::Exact;
 
 /// Standard deviation of the near-surface queries about the surface, in cube units.
 const SURFACE_SPREAD: f64 = 0.03;
@@ -33,7 +33,8 @@ impl Supervision {
                 }
             })
             .collect();
-        let winding = points.iter().map(|p| winding_number(mesh, p) as f32).collect();
+        let exact = Exact::new(mesh);
+        let winding = points.iter().map(|p| exact.at(p) as f32).collect();
         let queries = points.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
         Self { queries, winding }
     }

@@ -84,7 +84,7 @@ fn revolve(outline: &[(f64, f64)]) -> Faces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::winding::winding_number;
+    use crate::winding::Exact;
 
     #[test]
     fn every_shape_is_closed_and_faces_outward() {
@@ -101,7 +101,7 @@ mod tests {
                 [(0.0, 1.0), (0.98 * end, 1.0), (-0.98 * end, 1.0), (1.02 * end, 0.0)]
             {
                 let at = pose * Point3::new(0.0, 0.0, z);
-                let number = winding_number(&mesh, &at);
+                let number = Exact::new(&mesh).at(&at);
                 assert!((number - inside).abs() < 1e-6, "{shape:?} at {z}: {number}");
             }
         }
