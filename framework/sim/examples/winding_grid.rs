@@ -1,10 +1,11 @@
-//! Computes a cap's winding number on a 128^3 grid for comparison with other programs:
-//! `winding_grid NAME FOLDER` writes the canonical mesh as `mesh.obj`, and as `winding.f64`
-//! the numbers (little-endian, z fastest) about the centres of the unit cube's voxels.
+//! Computes the winding number of a cap of about 1,000 vertices on a 128^3 grid, for
+//! comparison with other programs: `winding_grid NAME FOLDER` writes the canonical mesh as
+//! `mesh.obj`, and as `winding.f64` the numbers (little-endian, z fastest) about the centres
+//! of the unit cube's voxels.
 
 use nalgebra::Point3;
 use seeone_core::winding::Exact;
-use seeone_sim::category::cap;
+use seeone_sim::category::cap::{self, Resolution};
 use seeone_sim::{Settings, worn::worn};
 use std::error::Error;
 use std::fmt::Write as _;
@@ -19,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let name = arguments.next().ok_or("which cap?")?;
     let folder = PathBuf::from(arguments.next().ok_or("which folder?")?);
-    let object = cap::named(&name).ok_or("there is no such cap")?;
+    let object = cap::named_at(&name, Resolution::FINE).ok_or("there is no such cap")?;
     let mesh = worn(&object, &Settings::default())?.canonical.mesh()?;
 
     let start = Instant::now();
