@@ -160,6 +160,15 @@ pub enum ObjectsAction {
         #[arg(long, default_value = "out/object.png")]
         out: PathBuf,
     },
+    /// Draw contact sheets: all objects, worn, dropped, and seen by the depth camera.
+    Sheet {
+        /// Seed of the drops and of the camera's noise.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// The folder for caps.png, canonical.png, drops.png and depth.png.
+        #[arg(long, default_value = "out")]
+        out: PathBuf,
+    },
 }
 
 /// `objects import`.

@@ -59,6 +59,9 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Objects { action: ObjectsAction::Show { object, out } } => {
             verbs::objects::show(object, out)
         }
+        Verb::Objects { action: ObjectsAction::Sheet { seed, out } } => {
+            verbs::sheet::run(*seed, out)
+        }
         Verb::Data(args) => verbs::data::run(args),
         Verb::Train(args) => verbs::train::run(args),
         Verb::Check(args) => verbs::check::run(args),

@@ -21,8 +21,10 @@ const SUBJECT: Vector3<f64> = Vector3::new(0.28, 0.12, 0.17);
 const PANEL: Intrinsics =
     Intrinsics { width: 640, height: 480, fx: 640.0, fy: 640.0, cx: 319.5, cy: 239.5 };
 
-const MAT: Color = [0.80, 0.77, 0.71];
-const SKIN: Color = [0.87, 0.69, 0.57];
+/// The mat's colour.
+pub const MAT: Color = [0.80, 0.77, 0.71];
+/// The colour of heads.
+pub const SKIN: Color = [0.87, 0.69, 0.57];
 const ARM: Color = [0.72, 0.76, 0.80];
 const CROWN: Color = [0.16, 0.32, 0.62];
 const FRONT: Color = [0.20, 0.38, 0.70];
@@ -74,7 +76,7 @@ impl RunPicture {
             .iter()
             .map(|moment| panel(workcell, &object, head.as_ref(), moment))
             .collect::<Result<Vec<_>>>()?;
-        write_png(&montage(&panels), path)
+        write_png(&montage(&panels, 2), path)
     }
 }
 
@@ -143,14 +145,14 @@ pub fn colors(object: &Object) -> Vec<Color> {
     object.regions().iter().map(color).collect()
 }
 
-/// Panels of one size, two a row.
-fn montage(panels: &[Picture]) -> Picture {
-    let columns = panels.len().min(2);
-    let rows = panels.len().div_ceil(2);
-    let (width, height) = (PANEL.width, PANEL.height);
+/// Panels of one size, `columns` a row; white where the last row is not full.
+pub fn montage(panels: &[Picture], columns: usize) -> Picture {
+    let columns = panels.len().min(columns);
+    let rows = panels.len().div_ceil(columns.max(1));
+    let (width, height) = panels.first().map_or((0, 0), |panel| (panel.width, panel.height));
     let mut rgb = vec![255; 3 * columns * width * rows * height];
     for (index, panel) in panels.iter().enumerate() {
-        let (left, top) = (index % 2 * width, index / 2 * height);
+        let (left, top) = (index % columns * width, index / columns * height);
         for row in 0..height {
             let from = 3 * row * width;
             let to = 3 * ((top + row) * columns * width + left);

@@ -19,7 +19,8 @@ const COMPARED: usize = 20_000;
 fn reference(mesh: &TriangleMesh, point: &Point3<f64>) -> f64 {
     let angle = |index: usize| {
         let [a, b, c] = mesh.corners(index).map(|corner| (corner - point).normalize());
-        let side = |p: &Vector3<f64>, q: &Vector3<f64>| 2.0 * (0.5 * (p - q).norm()).min(1.0).asin();
+        let side =
+            |p: &Vector3<f64>, q: &Vector3<f64>| 2.0 * (0.5 * (p - q).norm()).min(1.0).asin();
         let (ab, bc, ca) = (side(&a, &b), side(&b, &c), side(&c, &a));
         let s = 0.5 * (ab + bc + ca);
         let tan = |x: f64| (0.5 * x).tan().max(0.0);
@@ -41,8 +42,7 @@ fn the_grid_of_a_worn_cap_is_the_sum_of_all_solid_angles() {
         assert_eq!(grid.len(), VOXELS.pow(3));
 
         let mut rng = generator(1, name);
-        let chosen: Vec<usize> =
-            (0..COMPARED).map(|_| rng.random_range(0..grid.len())).collect();
+        let chosen: Vec<usize> = (0..COMPARED).map(|_| rng.random_range(0..grid.len())).collect();
         let worst = chosen
             .par_iter()
             .map(|n| {

@@ -6,5 +6,6 @@ pub mod eval;
 pub mod objects;
 pub mod plugins;
 pub mod run;
+pub mod sheet;
 pub mod teach;
 pub mod train;
