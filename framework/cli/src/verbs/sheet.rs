@@ -1,6 +1,6 @@
 //! `objects sheet`: contact sheets of what the simulation makes.
 
-use crate::objects::{SETS, resolve};
+use crate::objects::resolve;
 use crate::outputs::make_folder;
 use crate::picture::{MAT, SKIN, colors, montage, write_png};
 use crate::{Ending, console};
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use seeone_core::random::generator;
 use seeone_core::{DepthImage, Intrinsics, Pose, TriangleMesh};
-use seeone_sim::category::cap::{self, Set};
+use seeone_sim::category::cap::{self, Set, Template};
 use seeone_sim::depth_camera::{Noise, capture, looking_at};
 use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
@@ -19,17 +19,18 @@ use seeone_sim::{Settings, Surroundings, scenery};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-/// From where things are seen: from their middle, metres.
-const AWAY: Vector3<f64> = Vector3::new(0.42, 0.46, 0.40);
-/// Objects of the unseen set that are dropped, and how often each.
-const DROPPED: usize = 6;
+/// From where things are seen: from their middle, on the side of the lamp, metres.
+const AWAY: Vector3<f64> = Vector3::new(0.42, -0.46, 0.40);
+/// The mat is drawn this much lower than it lies: it would shine through what rests on it.
+const MAT_LOWERED_M: f64 = 0.003;
+/// Drops of one object of each template.
 const DROPS: usize = 5;
 /// A drop is given this long to come to rest, seconds.
 const SETTLE_S: f64 = 6.0;
 /// The depth camera's distance from the objects that it sees, metres.
 const CAMERA_M: f64 = 0.6;
 /// The colours of a depth image return after this depth, metres.
-const RAINBOW_M: f64 = 0.08;
+const RAINBOW_M: f64 = 0.15;
 
 /// An object at rest after a drop, in `world`.
 struct Rested {
@@ -43,19 +44,24 @@ struct Rested {
 /// When an object has no worn state or a file cannot be written.
 pub fn run(seed: u64, folder: &Path) -> Result<Ending> {
     make_folder(folder)?;
-    let all: Vec<String> = SETS.iter().flat_map(|(_, set)| cap::names(*set)).collect();
-    let unseen = cap::names(Set::Unseen);
-    let rested = drops(&unseen, seed)?;
+    let rested = drops(seed)?;
     let write = |name: &str, panels: &[Picture], columns: usize| {
         let path = folder.join(name);
         console::tell(&path.display().to_string());
         write_png(&montage(panels, columns), &path)
     };
-    write("caps.png", &each(&all, at_rest)?, 14)?;
-    write("canonical.png", &each(&unseen, on_the_head)?, 5)?;
+    write("caps.png", &each(&all(), at_rest)?, 14)?;
+    write("canonical.png", &each(&cap::names(Set::Unseen), on_the_head)?, 5)?;
     write("drops.png", &rested.par_iter().map(on_the_mat).collect::<Vec<_>>(), DROPS)?;
     write("depth.png", &depths(&rested, seed), 3)?;
     Ok(Ending::Success)
+}
+
+/// Names of all objects, template by template.
+fn all() -> Vec<String> {
+    let members = || Set::DISJOINT.into_iter().flat_map(Set::members);
+    let of = |template| members().filter(move |(_, member)| member.template == template);
+    Template::ALL.into_iter().flat_map(|t| of(t).map(|(name, _)| name)).collect()
 }
 
 /// One panel for each of the named objects.
@@ -63,13 +69,17 @@ fn each(names: &[String], panel: fn(&Object) -> Result<Picture>) -> Result<Vec<P
     names.par_iter().map(|name| panel(&resolve(name)?)).collect()
 }
 
-/// Objects from all over the set, each `DROPS` times.
-fn drops(names: &[String], seed: u64) -> Result<Vec<Rested>> {
-    let spread = |i: usize| &names[i * (names.len() - 1) / (DROPPED - 1)];
-    (0..DROPPED * DROPS)
+/// The last object of each template, which no network is trained on, `DROPS` times.
+fn drops(seed: u64) -> Result<Vec<Rested>> {
+    let last = |template| {
+        let mut members = Set::DISJOINT.into_iter().flat_map(Set::members);
+        members.rfind(|(_, member)| member.template == template).map(|(name, _)| name)
+    };
+    let names: Vec<String> = Template::ALL.into_iter().filter_map(last).collect();
+    (0..names.len() * DROPS)
         .into_par_iter()
         .map(|i| {
-            let object = resolve(spread(i / DROPS))?;
+            let object = resolve(&names[i / DROPS])?;
             let mut rng = generator(seed, &format!("sheet/{}/drop-{}", object.name(), i % DROPS));
             let table = Surroundings { table: true, ..Surroundings::default() };
             let mut world =
@@ -82,15 +92,16 @@ fn drops(names: &[String], seed: u64) -> Result<Vec<Rested>> {
 
 /// An object as it is made.
 fn at_rest(object: &Object) -> Result<Picture> {
-    let cap = painted(object, object.mesh());
-    Ok(render(&[cap], &beside(object.mesh()), &lens([96, 80], 205.0)))
+    let mesh = towards_the_eye(object.mesh())?;
+    Ok(render(&[painted(object, &mesh)], &beside(&mesh), &lens([92, 76], 185.0)))
 }
 
 /// An object's canonical state: worn, on the head.
 fn on_the_head(object: &Object) -> Result<Picture> {
     let settled = worn(object, &Settings::default()).with_context(|| object.name().to_owned())?;
     let mesh = object.mesh().with_vertices(settled.vertices).context("the worn shape")?;
-    let head = scenery::head(&Pose::identity());
+    let mesh = towards_the_eye(&mesh)?;
+    let head = towards_the_eye(&scenery::head(&Pose::identity()))?;
     let skin = Colored { mesh: &head, paint: Paint::Plain(SKIN) };
     let camera = looking_at(&(AWAY + Vector3::z() * 0.04), &(Vector3::z() * 0.02));
     Ok(render(&[skin, painted(object, &mesh)], &camera, &lens([208, 208], 420.0)))
@@ -98,7 +109,7 @@ fn on_the_head(object: &Object) -> Result<Picture> {
 
 /// An object at rest on the mat.
 fn on_the_mat(rested: &Rested) -> Picture {
-    let mat = scenery::table();
+    let mat = mat();
     let scene =
         [Colored { mesh: &mat, paint: Paint::Plain(MAT) }, painted(&rested.object, &rested.mesh)];
     render(&scene, &beside(&rested.mesh), &lens([192, 144], 330.0))
@@ -106,13 +117,13 @@ fn on_the_mat(rested: &Rested) -> Picture {
 
 /// The first drop of each object in colour, in true depth, and as the depth camera sees it.
 fn depths(rested: &[Rested], seed: u64) -> Vec<Picture> {
-    let mat = scenery::table();
-    let view = lens([256, 192], 384.0);
+    let (table, mat) = (scenery::table(), mat());
+    let view = lens([224, 168], 330.0);
     let panels = |first: &Rested| {
         let target = middle(&first.mesh);
-        let eye = target + Vector3::new(0.0, -0.5, 1.0).normalize() * CAMERA_M;
+        let eye = target + Vector3::new(0.0, -0.3, 1.0).normalize() * CAMERA_M;
         let camera = looking_at(&eye, &target);
-        let meshes = [&first.mesh, &mat];
+        let meshes = [&first.mesh, &table];
         let mut rng = generator(seed, &format!("sheet/{}/depth", first.object.name()));
         let shot = capture(&meshes, &camera, &view, &Noise::default(), &mut rng);
         let true_depth =
@@ -142,6 +153,16 @@ fn rainbow(image: &DepthImage) -> Picture {
 
 fn painted<'a>(object: &Object, mesh: &'a TriangleMesh) -> Colored<'a> {
     Colored { mesh, paint: Paint::PerTriangle(colors(object)) }
+}
+
+/// The mesh with what was its front, +y, towards -y.
+fn towards_the_eye(mesh: &TriangleMesh) -> Result<TriangleMesh> {
+    let turned = mesh.vertices().iter().map(|v| [-v.x, -v.y, v.z].into()).collect();
+    mesh.with_vertices(turned).context("a mesh that is turned")
+}
+
+fn mat() -> TriangleMesh {
+    scenery::rectangle([0.0, 0.0], [3.0, 3.0], -MAT_LOWERED_M)
 }
 
 /// A camera that looks at the middle of a mesh.
