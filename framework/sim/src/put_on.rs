@@ -87,7 +87,7 @@ pub fn put_on(
     misplaced: &Misplacement,
     settings: &Settings,
 ) -> PutOn {
-    let surroundings = Surroundings { head: Some(head), ..Surroundings::default() };
+    let surroundings = Surroundings { table: true, head: Some(head), ..Surroundings::default() };
     let weightless = Settings { gravity: Vector3::zeros(), ..*settings };
     let mut world = World::new(object, &Pose::identity(), surroundings, weightless);
     let way = Way::to(worn, &head, misplaced);
