@@ -20,6 +20,7 @@ use crate::object::Object;
 use crate::self_contact::SelfContact;
 use crate::shell::{Momentum, Shell};
 use crate::surroundings::Surroundings;
+use nalgebra::Vector3;
 use seeone_core::{Pose, TriangleMesh};
 
 /// Length of a frame, s.
@@ -38,6 +39,8 @@ pub struct World {
     pads: Pads,
     fingers: Option<Fingers>,
     grasp: Option<Grasp>,
+    /// Forces from outside: on which vertex, N in world.
+    pushes: Vec<(usize, Vector3<f64>)>,
     frames: u64,
     fault: Option<WorldFault>,
 }
@@ -64,6 +67,7 @@ impl World {
             pads: Pads::new(samples),
             fingers: None,
             grasp: None,
+            pushes: Vec::new(),
             frames: 0,
             fault: None,
         }
@@ -99,8 +103,9 @@ impl World {
     }
 
     fn substep(&mut self, done: f64, h: f64, given: &mut Momentum) {
-        let Self { shell, settings, surroundings, fingers, grasp, .. } = self;
+        let Self { shell, settings, surroundings, fingers, grasp, pushes, .. } = self;
         shell.predict(h, &settings.gravity, settings.velocity_damping);
+        placement::push(shell, pushes, h, given);
         if let Some(fingers) = fingers {
             fingers.step(done, h);
             if let Some(grasp) = grasp {

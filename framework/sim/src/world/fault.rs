@@ -11,7 +11,7 @@ pub enum WorldFault {
     },
 }
 
-/// Why vertices cannot be placed.
+/// Why vertices cannot be placed, pinned or pushed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlacementFault {
     /// Too many or too few.
@@ -22,7 +22,15 @@ pub enum PlacementFault {
         /// How many the object has.
         needed: usize,
     },
-    /// A vertex that is not finite.
-    #[error("vertex {0} is not finite")]
+    /// A position or force that is not finite.
+    #[error("what was given for vertex {0} is not finite")]
     NotFinite(usize),
+    /// A vertex that the object does not have.
+    #[error("vertex {vertex} was named, of an object of {vertices}")]
+    Unknown {
+        /// The vertex that was named.
+        vertex: usize,
+        /// How many the object has.
+        vertices: usize,
+    },
 }
