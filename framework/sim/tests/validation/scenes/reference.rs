@@ -13,8 +13,7 @@ use seeone_sim::drop::Drop;
 use seeone_sim::rigid_fit::rigid_fit;
 use seeone_sim::{Object, Region, Settings, Surroundings};
 
-/// Steps a second: the finest at which the reference is still several times cheaper than a
-/// test may be.
+/// Steps a second for hanging cloth.
 const RATE_HZ: f32 = 480.0;
 /// Below half of the shortest edge, or contact would push neighbours apart, metres.
 const PARTICLE_RADIUS_M: f32 = 1.0e-3;
