@@ -35,7 +35,7 @@ fn speed(criterion: &mut Criterion) {
             while crumpled.time() < CRUMPLED_S {
                 crumpled.advance();
             }
-            
+
             for (scene, world) in [("falling", &fresh), ("crumpled", &crumpled)] {
                 let name = format!("{scene}/{substeps} substeps");
                 let id = BenchmarkId::new(name, world.vertices().len());

@@ -11,7 +11,8 @@ use seeone_sim::category::cap::{self, Set};
 use std::io::Write;
 
 fn main() -> std::io::Result<()> {
-    let number = |n: usize, other| std::env::args().nth(n).and_then(|a| a.parse().ok()).unwrap_or(other);
+    let number =
+        |n: usize, other| std::env::args().nth(n).and_then(|a| a.parse().ok()).unwrap_or(other);
     let (drops, stride) = (number(1, 5), number(2, 1) as usize);
     let settings = Settings { substeps: 20, ..Settings::default() };
     let names: Vec<String> = Set::ALL.into_iter().flat_map(cap::names).step_by(stride).collect();
@@ -40,13 +41,48 @@ fn main() -> std::io::Result<()> {
     writeln!(out, "| no crossing at rest | {} |", share(&|o| o.crossings == 0))?;
     writeln!(out, "| most crossings | {} |", worst(&|o| o.crossings as f64))?;
     writeln!(out, "| worn again | {} |", share(&|o| o.worn_again_m.is_some()))?;
-    writeln!(out, "| worn again within 5 mm | {} |", share(&|o| o.worn_again_m.is_some_and(|d| d < 0.005)))?;
-    writeln!(out, "| worst distance worn again | {:.2} mm |", 1e3 * worst(&|o| o.worn_again_m.unwrap_or(0.0)))?;
-    writeln!(out, "| shape again within 5 mm | {} |", share(&|o| o.shape_again_m.is_some_and(|d| d < 0.005)))?;
-    writeln!(out, "| worst shape again | {:.2} mm |", 1e3 * worst(&|o| o.shape_again_m.unwrap_or(0.0)))?;
+    writeln!(
+        out,
+        "| worn again within 5 mm | {} |",
+        share(&|o| o.worn_again_m.is_some_and(|d| d < 0.005))
+    )?;
+    writeln!(
+        out,
+        "| worst distance worn again | {:.2} mm |",
+        1e3 * worst(&|o| o.worn_again_m.unwrap_or(0.0))
+    )?;
+    writeln!(
+        out,
+        "| shape again within 5 mm | {} |",
+        share(&|o| o.shape_again_m.is_some_and(|d| d < 0.005))
+    )?;
+    writeln!(
+        out,
+        "| worst shape again | {:.2} mm |",
+        1e3 * worst(&|o| o.shape_again_m.unwrap_or(0.0))
+    )?;
     for o in &outcomes {
-        let bad = o.rest_s.is_none_or(|t| t > 3.0) || o.crossings > 0 || o.strain_p99 > 0.05 || o.brim_deg > 2.0 || o.worn_again_m.is_none_or(|d| d > 0.005);
-        if bad { writeln!(out, "{} {} rest {:?} shape {:?} speed {:.1} mm/s p99 {:.3} brim {:.2} x {} worn {:?} {:?}", o.cap, o.drop, o.rest_s, o.shape_rest_s, o.speed_m_s*1e3, o.strain_p99, o.brim_deg, o.crossings, o.worn_again_m, o.shape_again_m)?; }
+        let bad = o.rest_s.is_none_or(|t| t > 3.0)
+            || o.crossings > 0
+            || o.strain_p99 > 0.05
+            || o.brim_deg > 2.0
+            || o.worn_again_m.is_none_or(|d| d > 0.005);
+        if bad {
+            writeln!(
+                out,
+                "{} {} rest {:?} shape {:?} speed {:.1} mm/s p99 {:.3} brim {:.2} x {} worn {:?} {:?}",
+                o.cap,
+                o.drop,
+                o.rest_s,
+                o.shape_rest_s,
+                o.speed_m_s * 1e3,
+                o.strain_p99,
+                o.brim_deg,
+                o.crossings,
+                o.worn_again_m,
+                o.shape_again_m
+            )?;
+        }
     }
     Ok(())
 }

@@ -64,9 +64,7 @@ impl Touch {
         let lift = self.normal * press;
         match slide.try_normalize(0.0) {
             None => lift,
-            Some(along) => {
-                lift - along * (slide.norm() / yields(&along)).min(friction * press)
-            }
+            Some(along) => lift - along * (slide.norm() / yields(&along)).min(friction * press),
         }
     }
 

@@ -261,7 +261,9 @@ mod tests {
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0 }],
             fresh: Vec::new(),
             found_at: points.clone(),
-            tangle: Tangle::new(&TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh")),
+            tangle: Tangle::new(
+                &TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh"),
+            ),
         };
         for _ in 0..100 {
             let mut previous = points.clone();

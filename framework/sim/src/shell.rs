@@ -163,7 +163,9 @@ impl Shell {
 
     /// Whether `vertex` belongs to a rigid part.
     pub fn is_rigid(&self, vertex: usize) -> bool {
-        self.clusters.iter().any(|c| c.firmness() == Firmness::Rigid && c.vertices().any(|v| v == vertex))
+        self.clusters
+            .iter()
+            .any(|c| c.firmness() == Firmness::Rigid && c.vertices().any(|v| v == vertex))
     }
 
     /// Stretching, bending and cluster energy, J.

@@ -15,7 +15,7 @@ use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
 use seeone_sim::picture::{Colored, Paint, Picture, render};
 use seeone_sim::worn::worn;
-use seeone_sim::{Settings, Surroundings, scenery};
+use seeone_sim::{Head, Settings, Surroundings, scenery};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -101,7 +101,7 @@ fn on_the_head(object: &Object) -> Result<Picture> {
     let settled = worn(object, &Settings::default()).with_context(|| object.name().to_owned())?;
     let mesh = object.mesh().with_vertices(settled.vertices).context("the worn shape")?;
     let mesh = towards_the_eye(&mesh)?;
-    let head = towards_the_eye(&scenery::head(&Pose::identity()))?;
+    let head = towards_the_eye(&scenery::head(&Head::medium(Pose::identity())))?;
     let skin = Colored { mesh: &head, paint: Paint::Plain(SKIN) };
     let camera = looking_at(&(AWAY + Vector3::z() * 0.04), &(Vector3::z() * 0.02));
     Ok(render(&[skin, painted(object, &mesh)], &camera, &lens([208, 208], 420.0)))

@@ -55,9 +55,8 @@ impl Tangle {
             Winged { ends: e.ends.map(|v| v as u32), wings: [wing(first), wing(last)] }
         };
         let all = topology::edges(mesh.triangles());
-        let long = |e: &Edge| {
-            (mesh.vertices()[e.ends[0]] - mesh.vertices()[e.ends[1]]).norm() > LONG_M
-        };
+        let long =
+            |e: &Edge| (mesh.vertices()[e.ends[0]] - mesh.vertices()[e.ends[1]]).norm() > LONG_M;
         let (long, short): (Vec<_>, Vec<_>) = all.iter().partition(|e| long(e));
         Self {
             short: short.len(),
@@ -129,9 +128,10 @@ impl Tangle {
             let Some(hit) = Hit::of(&ends, &corners) else { continue };
             let wings = edge.wings.map(|v| position[v as usize]);
             let Some(shift) = hit.shortening(&ends, &wings) else { continue };
-            let weights = end_ids.into_iter().zip(hit.along).chain(
-                corner_ids.into_iter().zip(hit.weights.map(|b| -b)),
-            );
+            let weights = end_ids
+                .into_iter()
+                .zip(hit.along)
+                .chain(corner_ids.into_iter().zip(hit.weights.map(|b| -b)));
             let inverse: f64 = weights.clone().map(|(v, b)| inverse_mass[v] * b * b).sum();
             if inverse <= 0.0 {
                 continue;

@@ -76,7 +76,14 @@ impl Bend {
                 if let Some(Bent { off: rest_angle, .. }) = bent(&points, (0.0, 1.0)) {
                     let rest = rest_angle.sin_cos();
                     let stiffness_n_m = bending * (points[1] - points[0]).norm_squared() / areas;
-                    hinges.push(Hinge { corners, rest, rest_angle, off: 0.0, stiffness_n_m, region });
+                    hinges.push(Hinge {
+                        corners,
+                        rest,
+                        rest_angle,
+                        off: 0.0,
+                        stiffness_n_m,
+                        region,
+                    });
                 }
             }
         }
