@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let seed = number("--seed")?.unwrap_or(1);
     let sets: &[Set] = if arguments.iter().any(|a| a == "--all") {
-        &Set::ALL
+        &Set::DISJOINT
     } else {
         &[Set::Unseen, Set::Validation]
     };
