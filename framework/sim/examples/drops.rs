@@ -14,7 +14,7 @@ fn main() -> std::io::Result<()> {
     let number =
         |n: usize, other| std::env::args().nth(n).and_then(|a| a.parse().ok()).unwrap_or(other);
     let (drops, stride) = (number(1, 5), number(2, 1) as usize);
-    let settings = Settings { substeps: 20, ..Settings::default() };
+    let settings = Settings::for_drops();
     let names: Vec<String> = Set::ALL.into_iter().flat_map(cap::names).step_by(stride).collect();
     let outcomes: Vec<Outcome> = names
         .par_iter()

@@ -107,7 +107,9 @@ impl SelfContact {
         &mut self,
         position: &mut [Point3<f64>],
         previous: &mut [Point3<f64>],
+        velocity: &[Vector3<f64>],
         inverse_mass: &[f64],
+        h: f64,
     ) {
         if self.is_stale(position) {
             self.find(position);
@@ -116,7 +118,7 @@ impl SelfContact {
             self.set_sides(position);
         }
         self.tangle.undo(&self.triangles, position, previous, inverse_mass);
-        self.push(position, previous, inverse_mass);
+        self.push(position, velocity, inverse_mass, h);
     }
 
     /// Whether a pair may have come near since the pairs were found. Motion that all
@@ -185,8 +187,9 @@ impl SelfContact {
     fn push(
         &mut self,
         position: &mut [Point3<f64>],
-        previous: &[Point3<f64>],
+        velocity: &[Vector3<f64>],
         inverse_mass: &[f64],
+        h: f64,
     ) {
         for pair in &mut self.pairs {
             let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
@@ -207,10 +210,9 @@ impl SelfContact {
             if inverse <= 0.0 {
                 continue;
             }
-            let moved = |v: usize| position[v] - previous[v];
             let under: Vector3<f64> =
-                ids.iter().zip(above.weights).map(|(v, b)| moved(*v) * b).sum();
-            let approach = (under - moved(vertex)).dot(&above.normal) * pair.side;
+                ids.iter().zip(above.weights).map(|(v, b)| velocity[*v] * b).sum();
+            let approach = (under - velocity[vertex]).dot(&above.normal) * pair.side * h;
             let most = approach.max(0.0) + PUSH_SHARE * SEPARATION_M;
             let push = (SEPARATION_M - gap).min(most) * pair.side / inverse;
             position[vertex] += above.normal * (push * inverse_mass[vertex]);
@@ -267,7 +269,7 @@ mod tests {
         };
         for _ in 0..100 {
             let mut previous = points.clone();
-            contact.solve(&mut points, &mut previous, &[1.0; 4]);
+            contact.solve(&mut points, &mut previous, &[Vector3::zeros(); 4], &[1.0; 4], 1e-3);
         }
         let corners = [points[0], points[1], points[2]];
         let height = above(&points[3], &corners).expect("a triangle").height;

@@ -114,8 +114,8 @@ impl World {
         }
         shell.solve(h);
         if settings.self_contact {
-            let Shell { position, previous, inverse_mass, .. } = shell;
-            self.self_contact.solve(position, previous, inverse_mass);
+            let Shell { position, previous, velocity, inverse_mass, .. } = shell;
+            self.self_contact.solve(position, previous, velocity, inverse_mass, h);
         }
         if let Some(fingers) = fingers {
             self.pads.solve(shell, fingers, surroundings.frictions.pad, h);

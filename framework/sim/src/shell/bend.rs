@@ -225,6 +225,44 @@ fn arc_tangent(sin: f64, cos: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::object::Material;
+    use seeone_core::TriangleMesh;
+
+    /// Two triangles folded by 200 degrees, coming from less than 180, open again; without
+    /// the memory they would close through 160 the other way round.
+    #[test]
+    fn what_has_folded_through_itself_comes_back_the_way_it_went() {
+        let wing = |degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            Point3::new(0.005, -0.01 * cos, -0.01 * sin)
+        };
+        let at = |degrees| {
+            vec![
+                Point3::origin(),
+                Point3::new(0.01, 0.0, 0.0),
+                Point3::new(0.005, 0.01, 0.0),
+                wing(degrees),
+            ]
+        };
+        let mesh = TriangleMesh::new(at(0.0), vec![[0, 1, 2], [1, 0, 3]]).expect("a mesh");
+        let cloth = Material { density_kg_m2: 0.3, bending_n_m: 1e-4, thickness_m: 0.001 };
+        let object = Object::new("pair", "pair", mesh, vec![Region::Crown; 2], [cloth; 4], 0.0)
+            .expect("an object");
+        let mut bend =
+            Bend::new(&object, &super::super::topology::edges(object.mesh().triangles()));
+        let mut x = Vec::new();
+        for degrees in [90.0, 170.0, 200.0] {
+            x = at(degrees);
+            bend.solve(&mut x, &at(degrees), &[1e4; 4], 1e-3, 0.0);
+        }
+        let before = bend.hinges[0].off.abs();
+        for _ in 0..100 {
+            let previous = x.clone();
+            bend.solve(&mut x, &previous, &[1e4; 4], 1e-3, 0.0);
+        }
+        let after = bend.hinges[0].off.abs();
+        assert!(before > 3.0 && after < LARGEST_FOLD_RAD + 0.01, "{before} then {after} rad");
+    }
 
     #[test]
     fn the_gradient_agrees_with_finite_differences() {
