@@ -61,28 +61,14 @@ fn main() -> std::io::Result<()> {
         "| worst shape again | {:.2} mm |",
         1e3 * worst(&|o| o.shape_again_m.unwrap_or(0.0))
     )?;
-    for o in &outcomes {
-        let bad = o.rest_s.is_none_or(|t| t > 3.0)
-            || o.crossings > 0
-            || o.strain_p99 > 0.05
-            || o.brim_deg > 2.0
-            || o.worn_again_m.is_none_or(|d| d > 0.005);
-        if bad {
-            writeln!(
-                out,
-                "{} {} rest {:?} shape {:?} speed {:.1} mm/s p99 {:.3} brim {:.2} x {} worn {:?} {:?}",
-                o.cap,
-                o.drop,
-                o.rest_s,
-                o.shape_rest_s,
-                o.speed_m_s * 1e3,
-                o.strain_p99,
-                o.brim_deg,
-                o.crossings,
-                o.worn_again_m,
-                o.shape_again_m
-            )?;
-        }
+    writeln!(out, "\n| outside a bar | rest s | at the end mm/s | strain p99 | crossings |")?;
+    writeln!(out, "|---|---|---|---|---|")?;
+    let outside = |o: &&Outcome| o.rest_s.is_none() || o.strain_p99 > 0.05 || o.crossings > 0;
+    for o in outcomes.iter().filter(outside) {
+        let rest_s = o.rest_s.map_or("never".into(), |t| format!("{t:.2}"));
+        let (speed, strain) = (1e3 * o.speed_m_s, o.strain_p99);
+        let name = format!("{} drop {}", o.cap, o.drop);
+        writeln!(out, "| {name} | {rest_s} | {speed:.1} | {strain:.3} | {} |", o.crossings)?;
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ mod tangle;
 
 use grid::Grid;
 use nalgebra::{Point3, Vector3};
-use seeone_core::TriangleMesh;
+use seeone_core::{Pose, TriangleMesh};
 use tangle::Tangle;
 
 /// Smallest distance kept between two layers, metres: two half thicknesses of 1.5 mm.
@@ -17,11 +17,13 @@ const SEPARATION_M: f64 = 3.0e-3;
 /// Largest push in one substep, as a share of the separation: a faster one pops.
 const PUSH_SHARE: f64 = 0.1;
 /// Pairs are found this much beyond the separation, metres.
-const MARGIN_M: f64 = 5.0e-3;
+const MARGIN_M: f64 = 3.0e-3;
 /// Pairs are found within this distance, metres.
 const REACH_M: f64 = SEPARATION_M + MARGIN_M;
+/// What is nearer than this may touch within the next substep, metres.
+const NEAR_M: f64 = SEPARATION_M + 1.0e-3;
 /// Edge of a cell of the search grid, metres: about an edge of the mesh.
-const GRID_CELL_M: f64 = 0.02;
+const GRID_CELL_M: f64 = 0.01;
 /// What is this near at rest, or this little outside in barycentric coordinates, is no
 /// pair: a seam would push itself open.
 const REST_CLEARANCE_M: f64 = 2.0 * SEPARATION_M;
@@ -35,6 +37,8 @@ struct Pair {
     vertex: u32,
     /// +1 on the side that the normal points to, -1 on the other, 0 in a tangle.
     side: f64,
+    /// How far the two may move against each other before they can touch, metres.
+    slack_m: f64,
 }
 
 impl Pair {
@@ -53,7 +57,12 @@ pub struct SelfContact {
     /// Ascending by triangle, then vertex.
     pairs: Vec<Pair>,
     fresh: Vec<Pair>,
-    /// Where the vertices were when the pairs were found; empty before the first time.
+    /// Indices of the pairs, ascending by slack.
+    order: Vec<u32>,
+    /// How many of them, from the front, may touch by now.
+    awake: usize,
+    /// Where the vertices were when the pairs were found, in the frame; empty before the
+    /// first time.
     found_at: Vec<Point3<f64>>,
     tangle: Tangle,
 }
@@ -81,7 +90,8 @@ impl SelfContact {
             let corners = mesh.corners(index);
             let mut near = mesh.triangles()[index].to_vec();
             grid.for_each_around(&corners, REACH_M, |vertex| {
-                let at_rest = above(&mesh.vertices()[vertex as usize], &corners);
+                let at_rest =
+                    Facet::new(&corners).map(|f| f.above(&mesh.vertices()[vertex as usize]));
                 if at_rest
                     .is_none_or(|a| a.is_over(REST_OVERLAP) && a.height.abs() < REST_CLEARANCE_M)
                 {
@@ -97,22 +107,30 @@ impl SelfContact {
             grid,
             pairs: Vec::new(),
             fresh: Vec::new(),
+            order: Vec::new(),
+            awake: 0,
             found_at: Vec::new(),
             tangle: Tangle::new(mesh),
         }
     }
 
-    /// Keeps the layers apart in one substep. The pushes conserve momentum.
+    /// Keeps the layers apart in a substep of `h` seconds. The pushes conserve momentum.
+    /// `frame` (shell -> world) moves about as the whole does, so that the search for pairs
+    /// need not follow.
     pub fn solve(
         &mut self,
+        frame: &Pose,
         position: &mut [Point3<f64>],
         previous: &mut [Point3<f64>],
         velocity: &[Vector3<f64>],
         inverse_mass: &[f64],
         h: f64,
     ) {
-        if self.is_stale(position) {
-            self.find(position);
+        let moved_m = self.moved_m(position, frame);
+        if moved_m > MARGIN_M / 2.0 {
+            self.find(position, frame);
+        } else {
+            self.wake(position, 2.0 * moved_m);
         }
         if self.tangle.look(&self.triangles, position) {
             self.set_sides(position);
@@ -121,29 +139,29 @@ impl SelfContact {
         self.push(position, velocity, inverse_mass, h);
     }
 
-    /// Whether a pair may have come near since the pairs were found. Motion that all
-    /// vertices share does not count.
-    fn is_stale(&self, position: &[Point3<f64>]) -> bool {
-        let moved = || position.iter().zip(&self.found_at).map(|(now, then)| now - then);
-        let mean = moved().sum::<Vector3<f64>>() / position.len() as f64;
-        let limit = (MARGIN_M / 2.0) * (MARGIN_M / 2.0);
-        self.found_at.len() != position.len() || moved().any(|m| (m - mean).norm_squared() > limit)
+    /// How far a vertex has moved since the pairs were found, metres, at most. Rigid motion
+    /// of the whole, as `frame` (shell -> world) tells it, does not count.
+    fn moved_m(&self, position: &[Point3<f64>], frame: &Pose) -> f64 {
+        if self.found_at.len() != position.len() {
+            return f64::INFINITY;
+        }
+        let back = inverse(frame);
+        let moved = position.iter().zip(&self.found_at).map(|(now, then)| back(now) - then);
+        moved.map(|m| m.norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
-    fn find(&mut self, position: &[Point3<f64>]) {
+    fn find(&mut self, position: &[Point3<f64>], frame: &Pose) {
         self.found_at.clear();
-        self.found_at.extend_from_slice(position);
+        self.found_at.extend(position.iter().map(inverse(frame)));
         self.grid.fill(position, GRID_CELL_M);
         self.fresh.clear();
-        let Self { triangles, exempt, grid, pairs, fresh, .. } = self;
+        let Self { triangles, exempt, grid, pairs, fresh, order, .. } = self;
         for (t, triangle) in triangles.iter().enumerate() {
             let corners = triangle.map(|v| position[v as usize]);
+            let Some(facet) = Facet::new(&corners) else { continue };
             grid.for_each_around(&corners, REACH_M, |vertex| {
-                if exempt[t].binary_search(&vertex).is_ok() {
-                    return;
-                }
-                let Some(above) = above(&position[vertex as usize], &corners) else { return };
-                if above.height.abs() > REACH_M {
+                let above = facet.above(&position[vertex as usize]);
+                if above.height.abs() > REACH_M || exempt[t].binary_search(&vertex).is_ok() {
                     return;
                 }
                 let key = (t as u32, vertex);
@@ -152,11 +170,35 @@ impl SelfContact {
                     Ok(index) if above.is_over(OVERLAP) => pairs[index].side,
                     _ => above.height.signum(),
                 };
-                fresh.push(Pair { triangle: t as u32, vertex, side });
+                let behind = above.height * side <= 0.0;
+                let slack_m = if behind { 0.0 } else { facet.distance(&above) - NEAR_M };
+                fresh.push(Pair { triangle: t as u32, vertex, side, slack_m });
             });
         }
         fresh.sort_unstable_by_key(Pair::key);
         std::mem::swap(pairs, fresh);
+        order.clear();
+        order.extend(0..pairs.len() as u32);
+        let slack = |index: &u32| pairs[*index as usize].slack_m;
+        order.sort_unstable_by(|a, b| slack(a).total_cmp(&slack(b)).then(a.cmp(b)));
+        self.awake = order.partition_point(|index| slack(index) <= 0.0);
+    }
+
+    /// Wakes the pairs that may touch after a relative motion of `moved_m` since they were
+    /// found. Until then each has been where it may change sides freely.
+    fn wake(&mut self, position: &[Point3<f64>], moved_m: f64) {
+        let Self { triangles, pairs, order, awake, .. } = self;
+        while let Some(index) = order.get(*awake) {
+            let pair = &mut pairs[*index as usize];
+            if pair.slack_m > moved_m {
+                break;
+            }
+            let corners = triangles[pair.triangle as usize].map(|v| position[v as usize]);
+            if let Some(facet) = Facet::new(&corners) {
+                pair.side = facet.above(&position[pair.vertex as usize]).height.signum();
+            }
+            *awake += 1;
+        }
     }
 
     /// Takes the memory of its side from whatever is pierced: one end of a piercing edge is
@@ -165,8 +207,8 @@ impl SelfContact {
         let find = |pairs: &[Pair], key: (u32, u32)| pairs.binary_search_by_key(&key, Pair::key);
         for pair in self.pairs.iter_mut().filter(|p| p.side == 0.0) {
             let corners = self.triangles[pair.triangle as usize].map(|v| position[v as usize]);
-            let above = above(&position[pair.vertex as usize], &corners);
-            pair.side = above.map_or(0.0, |a| a.height.signum());
+            let height = |f: Facet| f.above(&position[pair.vertex as usize]).height;
+            pair.side = Facet::new(&corners).map_or(0.0, |f| height(f).signum());
         }
         for piercing in self.tangle.piercings() {
             for vertex in self.tangle.ends(piercing) {
@@ -191,11 +233,13 @@ impl SelfContact {
         inverse_mass: &[f64],
         h: f64,
     ) {
-        for pair in &mut self.pairs {
+        for index in &self.order[..self.awake] {
+            let pair = &mut self.pairs[*index as usize];
             let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
             let corners = ids.map(|v| position[v]);
             let vertex = pair.vertex as usize;
-            let Some(above) = above(&position[vertex], &corners) else { continue };
+            let Some(facet) = Facet::new(&corners) else { continue };
+            let above = facet.above(&position[vertex]);
             if !above.is_over(OVERLAP) {
                 // Beside the triangle a vertex may change sides: it goes round it.
                 pair.side = above.height.signum();
@@ -223,25 +267,59 @@ impl SelfContact {
     }
 }
 
-/// Barycentric weights of the foot of `p` on the plane of `corners`, the unit normal and
-/// the signed height; `None` for a triangle without area.
-#[inline]
-fn above(p: &Point3<f64>, corners: &[Point3<f64>; 3]) -> Option<Above> {
-    let [a, b, c] = corners;
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let normal = ab.cross(&ac);
-    let squared = normal.norm_squared();
-    if squared <= 0.0 {
-        return None;
+/// World -> frame.
+fn inverse(frame: &Pose) -> impl Fn(&Point3<f64>) -> Point3<f64> {
+    let turn = frame.rotation.inverse().to_rotation_matrix();
+    let shift = turn * -frame.translation.vector;
+    move |p| turn * p + shift
+}
+
+/// A triangle with area.
+struct Facet {
+    origin: Point3<f64>,
+    sides: [Vector3<f64>; 2],
+    /// The normal, as long as twice the area.
+    normal: Vector3<f64>,
+    per_squared: f64,
+    per_length: f64,
+}
+
+impl Facet {
+    #[inline]
+    fn new([a, b, c]: &[Point3<f64>; 3]) -> Option<Self> {
+        let sides = [b - a, c - a];
+        let normal = sides[0].cross(&sides[1]);
+        let squared = normal.norm_squared();
+        (squared > 0.0).then(|| {
+            let per_squared = 1.0 / squared;
+            Self { origin: *a, sides, normal, per_squared, per_length: per_squared.sqrt() }
+        })
     }
-    let v = ap.cross(&ac).dot(&normal) / squared;
-    let w = ab.cross(&ap).dot(&normal) / squared;
-    let length = squared.sqrt();
-    Some(Above {
-        weights: [1.0 - v - w, v, w],
-        normal: normal / length,
-        height: ap.dot(&normal) / length,
-    })
+
+    #[inline]
+    fn above(&self, p: &Point3<f64>) -> Above {
+        let [ab, ac] = &self.sides;
+        let ap = p - self.origin;
+        let v = ap.cross(ac).dot(&self.normal) * self.per_squared;
+        let w = ab.cross(&ap).dot(&self.normal) * self.per_squared;
+        Above {
+            weights: [1.0 - v - w, v, w],
+            normal: self.normal * self.per_length,
+            height: ap.dot(&self.normal) * self.per_length,
+        }
+    }
+
+    /// A distance to the triangle that the true one is not below, metres: the height, or how
+    /// far the foot is beyond the line of a side.
+    fn distance(&self, above: &Above) -> f64 {
+        let [ab, ac] = &self.sides;
+        let opposite = [ac - ab, *ac, *ab];
+        let beyond = opposite.iter().zip(above.weights).map(|(side, weight)| {
+            // The altitude on a side is twice the area over its length.
+            -weight / (self.per_length * side.norm())
+        });
+        beyond.fold(above.height.abs(), f64::max)
+    }
 }
 
 #[cfg(test)]
@@ -260,7 +338,9 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             exempt: vec![vec![0, 1, 2]],
             grid: Grid::default(),
-            pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0 }],
+            pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, slack_m: 0.0 }],
+            order: vec![0],
+            awake: 1,
             fresh: Vec::new(),
             found_at: points.clone(),
             tangle: Tangle::new(
@@ -269,10 +349,17 @@ mod tests {
         };
         for _ in 0..100 {
             let mut previous = points.clone();
-            contact.solve(&mut points, &mut previous, &[Vector3::zeros(); 4], &[1.0; 4], 1e-3);
+            contact.solve(
+                &Pose::identity(),
+                &mut points,
+                &mut previous,
+                &[Vector3::zeros(); 4],
+                &[1.0; 4],
+                1e-3,
+            );
         }
         let corners = [points[0], points[1], points[2]];
-        let height = above(&points[3], &corners).expect("a triangle").height;
+        let height = Facet::new(&corners).expect("a triangle").above(&points[3]).height;
         assert!((height - SEPARATION_M).abs() < 1e-6, "{height}");
         let centre: Vector3<f64> = points.iter().map(|p| p.coords).sum();
         assert!((centre - Vector3::new(0.025, 0.025, -0.001)).norm() < 1e-12);

@@ -116,6 +116,12 @@ impl Shell {
         }
     }
 
+    /// The rigid motion of the whole shell as last solved: rest shape -> world, but for a
+    /// fixed shift.
+    pub fn frame(&self) -> Pose {
+        self.clusters.first().map_or_else(Pose::identity, Cluster::frame)
+    }
+
     /// Puts every vertex at `position`, at rest.
     pub fn rest_at(&mut self, position: &[Point3<f64>]) {
         self.position.copy_from_slice(position);

@@ -114,8 +114,9 @@ impl World {
         }
         shell.solve(h);
         if settings.self_contact {
+            let frame = shell.frame();
             let Shell { position, previous, velocity, inverse_mass, .. } = shell;
-            self.self_contact.solve(position, previous, velocity, inverse_mass, h);
+            self.self_contact.solve(&frame, position, previous, velocity, inverse_mass, h);
         }
         if let Some(fingers) = fingers {
             self.pads.solve(shell, fingers, surroundings.frictions.pad, h);

@@ -95,7 +95,7 @@ impl Tangle {
         let ends = |e: usize| edges[e].ends.map(|v| position[v as usize]);
         middles.clear();
         middles.extend((0..*short).map(ends).map(|[a, b]| nalgebra::center(&a, &b)));
-        grid.fill(middles, LONG_M);
+        grid.fill(middles, LONG_M / 2.0);
         piercings.clear();
         for (t, triangle) in triangles.iter().enumerate() {
             let corners = triangle.map(|v| position[v as usize]);

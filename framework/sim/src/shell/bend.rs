@@ -5,7 +5,7 @@ use super::stretch::area;
 use super::topology::{Edge, opposite};
 use crate::object::{Object, Region};
 use nalgebra::{Point3, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Rayleigh damping of bending, s: fabric loses a ripple within a few of its periods.
 pub const BENDING_DAMPING_S: f64 = 2.0e-3;
@@ -34,8 +34,11 @@ impl Hinge {
     /// The angle from rest that is `off` but for whole turns and nearest to the last one: a
     /// hinge that folds through itself must come back the way it went.
     fn follow(&mut self, off: f64) -> f64 {
-        let turns = ((self.off - off) / TAU).round();
-        self.off = off + turns * TAU;
+        self.off = if (self.off - off).abs() < PI {
+            off
+        } else {
+            off + ((self.off - off) / TAU).round() * TAU
+        };
         self.off
     }
 }

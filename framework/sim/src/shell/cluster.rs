@@ -3,6 +3,7 @@
 
 use super::rotation::nearest_rotation;
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use seeone_core::Pose;
 
 /// How strongly a cluster returns to its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,6 +121,11 @@ impl Cluster {
             inertia += square * m.weight;
         }
         self.inverse_inertia = inertia.try_inverse().unwrap_or_default();
+    }
+
+    /// The rigid copy as last solved: centred rest shape -> world.
+    pub fn frame(&self) -> Pose {
+        Pose::from_parts(self.centre.into(), self.rotation)
     }
 
     /// How far the point `at` of the cluster, moving as a rigid body where it was last
