@@ -6,7 +6,7 @@ use seeone_sim::drop::Drop;
 use seeone_sim::rigid_fit::rigid_fit;
 use seeone_sim::world::FRAME_S;
 use seeone_sim::worn::{template, worn};
-use seeone_sim::{Head, Object, Region, Settings, Surroundings, World};
+use seeone_sim::{Head, HeadSize, Object, Region, Settings, Surroundings, World};
 
 /// A drop that lasts longer than this counts as never at rest, s.
 pub const LIMIT_S: f64 = 6.0;
@@ -92,9 +92,9 @@ fn worn_again(
     settings: &Settings,
     worn: &[Point3<f64>],
 ) -> Option<(f64, f64)> {
-    let head = Some(Head { pose: seeone_core::Pose::identity() });
+    let head = Some(Head::medium(seeone_core::Pose::identity()));
     let surroundings = Surroundings { head, ..Surroundings::default() };
-    let mut world = World::new(cap, &template(cap), surroundings, *settings);
+    let mut world = World::new(cap, &template(cap, HeadSize::MEDIUM), surroundings, *settings);
     let back = rigid_fit(rested, world.vertices());
     let placed: Vec<_> = rested.iter().map(|p| back * p).collect();
     world.set_vertices(&placed).ok()?;
