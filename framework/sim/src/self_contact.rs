@@ -65,6 +65,8 @@ pub struct SelfContact {
     /// first time.
     found_at: Vec<Point3<f64>>,
     tangle: Tangle,
+    /// For each vertex whether it is about a tangle.
+    tangled: Vec<bool>,
 }
 
 /// Where a vertex is above a triangle.
@@ -111,6 +113,7 @@ impl SelfContact {
             awake: 0,
             found_at: Vec::new(),
             tangle: Tangle::new(mesh),
+            tangled: Vec::new(),
         }
     }
 
@@ -121,7 +124,6 @@ impl SelfContact {
         &mut self,
         frame: &Pose,
         position: &mut [Point3<f64>],
-        previous: &mut [Point3<f64>],
         velocity: &[Vector3<f64>],
         inverse_mass: &[f64],
         h: f64,
@@ -135,7 +137,7 @@ impl SelfContact {
         if self.tangle.look(&self.triangles, position) {
             self.set_sides(position);
         }
-        self.tangle.undo(&self.triangles, position, previous, inverse_mass);
+        self.tangle.undo(&self.triangles, position, inverse_mass);
         self.push(position, velocity, inverse_mass, h);
     }
 
@@ -201,20 +203,22 @@ impl SelfContact {
         }
     }
 
-    /// Takes the memory of its side from whatever is pierced: one end of a piercing edge is
-    /// on the wrong side, and nothing tells which. What is free again remembers where it is.
+    /// Takes the memory of its side from whatever is about a tangle: something there is on
+    /// the wrong side, and nothing tells what. What is free again remembers where it is.
     fn set_sides(&mut self, position: &[Point3<f64>]) {
-        let find = |pairs: &[Pair], key: (u32, u32)| pairs.binary_search_by_key(&key, Pair::key);
-        for pair in self.pairs.iter_mut().filter(|p| p.side == 0.0) {
-            let corners = self.triangles[pair.triangle as usize].map(|v| position[v as usize]);
-            let height = |f: Facet| f.above(&position[pair.vertex as usize]).height;
-            pair.side = Facet::new(&corners).map_or(0.0, |f| height(f).signum());
-        }
-        for piercing in self.tangle.piercings() {
-            for vertex in self.tangle.ends(piercing) {
-                if let Ok(index) = find(&self.pairs, (piercing.triangle, vertex)) {
-                    self.pairs[index].side = 0.0;
-                }
+        let Self { triangles, pairs, tangle, tangled, .. } = self;
+        tangled.clear();
+        tangled.resize(position.len(), false);
+        tangle.vertices(triangles).for_each(|v| tangled[v as usize] = true);
+        for pair in pairs {
+            let triangle = triangles[pair.triangle as usize];
+            let about = |v: &u32| tangled[*v as usize];
+            if about(&pair.vertex) && triangle.iter().any(about) {
+                pair.side = 0.0;
+            } else if pair.side == 0.0 {
+                let corners = triangle.map(|v| position[v as usize]);
+                let height = |f: Facet| f.above(&position[pair.vertex as usize]).height;
+                pair.side = Facet::new(&corners).map_or(0.0, |f| height(f).signum());
             }
         }
     }
@@ -346,17 +350,10 @@ mod tests {
             tangle: Tangle::new(
                 &TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh"),
             ),
+            tangled: Vec::new(),
         };
         for _ in 0..100 {
-            let mut previous = points.clone();
-            contact.solve(
-                &Pose::identity(),
-                &mut points,
-                &mut previous,
-                &[Vector3::zeros(); 4],
-                &[1.0; 4],
-                1e-3,
-            );
+            contact.solve(&Pose::identity(), &mut points, &[Vector3::zeros(); 4], &[1.0; 4], 1e-3);
         }
         let corners = [points[0], points[1], points[2]];
         let height = Facet::new(&corners).expect("a triangle").above(&points[3]).height;

@@ -73,9 +73,12 @@ impl Tangle {
         &self.piercings
     }
 
-    /// The ends of the edge of `piercing`.
-    pub fn ends(&self, piercing: &Piercing) -> [u32; 2] {
-        self.edges[piercing.edge as usize].ends
+    /// The vertices of all that was pierced or pierces.
+    pub fn vertices(&self, triangles: &[[u32; 3]]) -> impl Iterator<Item = u32> {
+        self.piercings.iter().flat_map(|p| {
+            let edge = self.edges[p.edge as usize];
+            triangles[p.triangle as usize].into_iter().chain(edge.ends).chain(edge.wings)
+        })
     }
 
     /// Looks for tangles when it is time to; whether it did.
@@ -111,14 +114,9 @@ impl Tangle {
         piercings.sort_unstable();
     }
 
-    /// Moves what is pierced apart. `previous` moves along, so that no speed comes of it.
-    pub fn undo(
-        &self,
-        triangles: &[[u32; 3]],
-        position: &mut [Point3<f64>],
-        previous: &mut [Point3<f64>],
-        inverse_mass: &[f64],
-    ) {
+    /// Moves what is pierced apart. Speed comes of it, and must: without, whatever the shell
+    /// is hooked into holds against it.
+    pub fn undo(&self, triangles: &[[u32; 3]], position: &mut [Point3<f64>], inverse_mass: &[f64]) {
         for piercing in &self.piercings {
             let edge = self.edges[piercing.edge as usize];
             let corner_ids = triangles[piercing.triangle as usize].map(|v| v as usize);
@@ -139,7 +137,6 @@ impl Tangle {
             for (v, b) in weights {
                 let step = shift * (STEP_M * inverse_mass[v] * b / inverse);
                 position[v] += step;
-                previous[v] += step;
             }
         }
     }
