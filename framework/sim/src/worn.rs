@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn a_tight_cap_is_told_from_one_that_fits() {
         let settings = Settings::default();
-        let narrow = cap::named("cap-unseen-15").expect("a cap");
+        let narrow = cap::named("cap-unseen-08").expect("a cap");
         assert!(worn_on(&narrow, HeadSize::MEDIUM, &settings).is_ok());
         let fault = worn_on(&narrow, HeadSize::LARGE, &settings).expect_err("a tight cap");
         assert!(matches!(fault, WornFault::TooTight(share) if share > LARGEST_STRETCH));

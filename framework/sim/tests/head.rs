@@ -11,7 +11,7 @@ use seeone_sim::worn::{Worn, worn};
 use seeone_sim::{Frictions, Hand, Head, Object, Settings, Surroundings, WearError, World};
 use std::f64::consts::PI;
 
-const CAPS: [&str; 4] = ["cap-unseen-00", "cap-unseen-05", "cap-unseen-11", "cap-unseen-15"];
+const CAPS: [&str; 4] = ["cap-unseen-00", "cap-unseen-05", "cap-unseen-11", "cap-unseen-08"];
 /// The largest error that counts as worn, in diameters of the cap.
 const TOLERANCE_D: f64 = 0.1;
 /// The largest error of a cap that is let go where it is worn. Most come to rest within
