@@ -56,7 +56,7 @@ fn line(name: &str, size: HeadSize) -> String {
         Err(fault) => return format!("{name}: {fault}"),
     };
     let template = cap::member(name).map_or("imported", |member| member.template.name());
-    let worn = match worn_on(&object, size, &Settings { substeps: 20, ..Settings::default() }) {
+    let worn = match worn_on(&object, size, &Settings::default()) {
         Ok(worn) => worn,
         Err(fault) => return format!("{name} {template}: {fault}"),
     };

@@ -92,9 +92,8 @@ impl Template {
         }
     }
 
-    /// Seed of its shapes: a name stands for one shape for ever. It is the first from 0 whose
-    /// caps are all further apart than [`super::apart::NEAR_DUPLICATE`]; the example `apart`
-    /// searches it.
+    /// Seed of its shapes: a name stands for one shape for ever. Its caps are all further
+    /// apart than [`super::apart::NEAR_DUPLICATE`]; the example `apart` searches such seeds.
     pub const fn seed(self) -> u64 {
         match self {
             Self::Baseball => 45,

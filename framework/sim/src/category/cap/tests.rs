@@ -163,10 +163,9 @@ fn a_finer_cap_is_the_same_cap() {
     assert!((1800..2300).contains(&count(Resolution::FINEST)));
 }
 
-/// At half of the substeps that runs use, to be quick.
 #[test]
 fn every_cap_sits_on_the_head() {
-    let settings = Settings { substeps: 20, ..Settings::default() };
+    let settings = Settings::default();
     let faults: Vec<String> = all()
         .par_iter()
         .filter_map(|(_, cap)| {
