@@ -2,10 +2,11 @@
 //! and shape-matching clusters for what springs and hinges cannot hold stiff.
 //!
 //! One substep of `h` seconds predicts, sweeps the springs backward, the hinges, the
-//! clusters and the springs forward; whoever owns the shell then adds contacts and grips,
+//! clusters, the hem's band and the springs forward; whoever owns the shell then adds contacts and grips,
 //! and ends the substep, which makes velocities from the positions. One thread, fixed
 //! order: the same start gives the same bytes.
 
+mod band;
 pub mod bend;
 pub mod cluster;
 mod colouring;
@@ -17,6 +18,7 @@ pub mod topology;
 pub use motion::Momentum;
 
 use crate::object::{Object, Region};
+use band::Band;
 use bend::Bend;
 use cluster::{Cluster, Firmness};
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -44,6 +46,7 @@ pub struct Shell {
     pub(crate) inverse_mass: Vec<f64>,
     bending_damping_s: f64,
     stretch: Stretch,
+    band: Option<Band>,
     bend: Bend,
     /// The whole object first, then its stiffened regions.
     clusters: Vec<Cluster>,
@@ -72,6 +75,7 @@ impl Shell {
             inverse_mass: mass.iter().map(|m| 1.0 / m).collect(),
             bending_damping_s: bend::BENDING_DAMPING_S,
             stretch: Stretch::new(mesh, &edges),
+            band: Band::new(object, &edges),
             bend: Bend::new(object, &edges),
             clusters: clusters.collect(),
             rigid_part: vec![None; mass.len()],
@@ -82,9 +86,11 @@ impl Shell {
         shell
     }
 
-    /// Moves every free vertex by its velocity under `gravity` (m/s2). Velocity decays at
-    /// `damping` (1/s).
+    /// Damps bending and moves every free vertex by its velocity under `gravity` (m/s2).
+    /// Velocity decays at `damping` (1/s).
     pub fn predict(&mut self, h: f64, gravity: &Vector3<f64>, damping: f64) {
+        let (x, v, w) = (&self.position, &mut self.velocity, &self.inverse_mass);
+        self.bend.damp(x, v, w, h, self.bending_damping_s);
         let keep = 1.0 / (1.0 + damping * h);
         self.previous.copy_from_slice(&self.position);
         for ((p, v), w) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.inverse_mass)
@@ -100,8 +106,9 @@ impl Shell {
     pub fn solve(&mut self, h: f64) {
         let (x, w) = (&mut self.position, &self.inverse_mass);
         self.stretch.solve_backward(x, w, h);
-        self.bend.solve(x, &self.previous, w, h, self.bending_damping_s);
+        self.bend.solve(x, &self.previous, w, h);
         self.clusters.iter_mut().for_each(|c| c.solve(x, w, h));
+        self.band.iter_mut().for_each(|b| b.solve(x, w, h));
         self.stretch.solve_forward(x, w, h);
     }
 
@@ -178,7 +185,8 @@ impl Shell {
     pub fn elastic_energy(&self) -> f64 {
         let x = &self.position;
         let clusters: f64 = self.clusters.iter().map(|c| c.energy(x)).sum();
-        self.stretch.energy(x) + self.bend.energy(x) + clusters
+        let band = self.band.as_ref().map_or(0.0, |b| b.energy(x));
+        self.stretch.energy(x) + band + self.bend.energy(x) + clusters
     }
 
     /// Mean and largest absolute strain of the edges.

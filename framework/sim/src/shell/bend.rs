@@ -31,6 +31,13 @@ struct Hinge {
 }
 
 impl Hinge {
+    /// How far an impulse on the angle moves it: the inverse masses, weighed by `gradient`.
+    #[inline(always)]
+    fn weight(&self, gradient: &[Vector3<f64>; 4], inverse_mass: &[f64]) -> f64 {
+        let pairs = gradient.iter().zip(&self.corners);
+        pairs.map(|(g, v)| inverse_mass[*v] * g.norm_squared()).sum()
+    }
+
     /// The angle from rest that is `off` but for whole turns and nearest to the last one: a
     /// hinge that folds through itself must come back the way it went.
     fn follow(&mut self, off: f64) -> f64 {
@@ -43,8 +50,8 @@ impl Hinge {
     }
 }
 
-/// Every hinge of a shell as an XPBD constraint on its angle with Rayleigh damping
-/// (Macklin et al. 2016, eq. 26).
+/// Every hinge of a shell as an XPBD constraint on its angle (Macklin et al. 2016), with
+/// Rayleigh damping of its velocity.
 ///
 /// The energy of a hinge is k (theta - theta0)^2 / 2 with k = B l^2 / (A1 + A2), which
 /// averages to B kappa^2 / 2 per area over equilateral triangles; the often quoted
@@ -94,41 +101,62 @@ impl Bend {
         Self { hinges }
     }
 
-    /// One sweep of a substep of `h` seconds. `previous` are the positions at its start
-    /// and `damping_s` is the Rayleigh coefficient, usually [`BENDING_DAMPING_S`].
+    /// One sweep of a substep of `h` seconds. `previous` are the positions at its start.
     pub fn solve(
         &mut self,
         position: &mut [Point3<f64>],
         previous: &[Point3<f64>],
         inverse_mass: &[f64],
         h: f64,
-        damping_s: f64,
     ) {
-        let gamma = damping_s / h;
         for hinge in &mut self.hinges {
             let points = hinge.corners.map(|v| position[v]);
             let Some(Bent { off, gradient }) = bent(&points, hinge.rest) else { continue };
             let off = hinge.follow(off);
-            let mut weight = 0.0;
-            let mut rate = 0.0;
-            for (k, v) in hinge.corners.iter().enumerate() {
-                weight += inverse_mass[*v] * gradient[k].norm_squared();
-                rate += gradient[k].dot(&(points[k] - previous[*v]));
-            }
+            let weight = hinge.weight(&gradient, inverse_mass);
             if weight <= 0.0 {
                 continue;
             }
             let fold = hinge.rest_angle + off;
             let lambda = if fold.abs() < LARGEST_FOLD_RAD {
-                let compliance = 1.0 / (hinge.stiffness_n_m * h * h);
-                -(off + gamma * rate) / ((1.0 + gamma) * weight + compliance)
+                -off / (weight + 1.0 / (hinge.stiffness_n_m * h * h))
             } else {
                 let side = fold.signum();
-                let most = (rate * side).max(0.0) + UNFOLD_RAD;
+                let moved = hinge.corners.iter().zip(&gradient).zip(&points);
+                let turned: f64 = moved.map(|((v, g), p)| g.dot(&(p - previous[*v]))).sum();
+                let most = (turned * side).max(0.0) + UNFOLD_RAD;
                 -side * (fold.abs() - LARGEST_FOLD_RAD).min(most) / weight
             };
             for (k, v) in hinge.corners.iter().enumerate() {
                 position[*v] += gradient[k] * (inverse_mass[*v] * lambda);
+            }
+        }
+    }
+
+    /// Takes from the velocities what Rayleigh damping of `damping_s` seconds, usually
+    /// [`BENDING_DAMPING_S`], does in `h` seconds.
+    ///
+    /// Not inside the sweep over positions: there it also brakes the way back from what
+    /// gravity and the sweep's other constraints have just added, and a shell at rest
+    /// hangs lower by a share of about k w beta h (stiffness, inverse mass, damping).
+    pub fn damp(
+        &self,
+        position: &[Point3<f64>],
+        velocity: &mut [Vector3<f64>],
+        inverse_mass: &[f64],
+        h: f64,
+        damping_s: f64,
+    ) {
+        for hinge in &self.hinges {
+            let points = hinge.corners.map(|v| position[v]);
+            let Some(Bent { gradient, .. }) = bent(&points, hinge.rest) else { continue };
+            let pairs = gradient.iter().zip(&hinge.corners);
+            let rate: f64 = pairs.map(|(g, v)| g.dot(&velocity[*v])).sum();
+            let strength = hinge.stiffness_n_m * damping_s * h;
+            let weight = hinge.weight(&gradient, inverse_mass);
+            let impulse = -strength * rate / (1.0 + strength * weight);
+            for (k, v) in hinge.corners.iter().enumerate() {
+                velocity[*v] += gradient[k] * (inverse_mass[*v] * impulse);
             }
         }
     }
