@@ -13,7 +13,7 @@ mod resolve;
 mod sample;
 
 pub use bodies::Bodies;
-pub use body::{Body, Resolution, Shape};
+pub use body::{Body, Probes, Shape};
 pub use sample::Sample;
 
 use nalgebra::{Matrix3, Vector3};

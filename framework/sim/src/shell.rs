@@ -1,10 +1,10 @@
 //! A thin shell under extended position-based dynamics (XPBD): in-plane springs, hinges,
 //! and shape-matching clusters for what springs and hinges cannot hold stiff.
 //!
-//! One substep of `h` seconds predicts, sweeps the springs backward, the hinges, the
-//! clusters, the hem's band and the springs forward; whoever owns the shell then adds contacts and grips,
-//! and ends the substep, which makes velocities from the positions. One thread, fixed
-//! order: the same start gives the same bytes.
+//! One substep of `h` seconds predicts, then solves the hem's band, the springs backward,
+//! the hinges, the clusters, the springs forward and the band again; whoever owns the
+//! shell then adds contacts and grips, and ends the substep, which makes velocities from
+//! the positions. One thread, fixed order: the same start gives the same bytes.
 
 mod band;
 pub mod bend;
@@ -105,11 +105,12 @@ impl Shell {
     /// Stretching, bending and clusters.
     pub fn solve(&mut self, h: f64) {
         let (x, w) = (&mut self.position, &self.inverse_mass);
+        self.band.iter_mut().for_each(|b| b.solve(x, w, h));
         self.stretch.solve_backward(x, w, h);
         self.bend.solve(x, &self.previous, w, h);
         self.clusters.iter_mut().for_each(|c| c.solve(x, w, h));
-        self.band.iter_mut().for_each(|b| b.solve(x, w, h));
         self.stretch.solve_forward(x, w, h);
+        self.band.iter_mut().for_each(|b| b.solve(x, w, h));
     }
 
     /// Makes velocities from the positions at both ends of the substep.

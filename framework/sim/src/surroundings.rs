@@ -6,7 +6,7 @@ mod hook;
 pub use head::Head;
 pub use hook::{Hook, PEG_BALL_RADIUS_M, PEG_LENGTH_M, PEG_RADIUS_M};
 
-use crate::contact::{Body, Resolution, Shape};
+use crate::contact::{Body, Probes, Shape};
 pub use seeone_core::head::{HEAD_SEMI_AXES_M, HeadSize};
 
 use seeone_core::Pose;
@@ -55,5 +55,5 @@ impl Surroundings {
 
 /// Everything at and below the plane z = 0 of `pose`.
 fn half_space(pose: Pose, friction: f64) -> Body {
-    Body { shape: Shape::HalfSpace, pose, friction, resolution: Resolution::Vertices }
+    Body { shape: Shape::HalfSpace, pose, friction, probes: Probes::Vertices }
 }

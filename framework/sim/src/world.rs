@@ -4,7 +4,6 @@ mod fault;
 mod grip;
 mod placement;
 mod report;
-mod roll;
 mod settings;
 mod settle;
 
@@ -87,9 +86,9 @@ impl World {
             self.pads.begin_frame(&self.shell, fingers);
         }
         self.bodies.begin_frame(&self.shell);
-        let mut given = Momentum::zero();
+        let (mut given, mut rolling) = (Momentum::zero(), 0.0);
         for substep in 1..=substeps {
-            self.substep(substep as f64 / substeps as f64, h, &mut given);
+            rolling += self.substep(substep as f64 / substeps as f64, h, &mut given);
         }
         self.frames += 1;
         if !self.shell.is_finite() {
@@ -98,11 +97,16 @@ impl World {
             self.shell.rest_at(&last_whole);
             return;
         }
-        self.resist_rolling(&given);
+        if self.grasp.is_none() {
+            self.shell.brake_spin(rolling);
+        }
         self.tend_grip(&before, &given);
     }
 
-    fn substep(&mut self, done: f64, h: f64, given: &mut Momentum) {
+    /// One substep of `h` seconds, after which the share `done` of the frame is over. Adds what
+    /// the surroundings gave the shell to `given`, and tells what rolling may take from its
+    /// spin, N m s.
+    fn substep(&mut self, done: f64, h: f64, given: &mut Momentum) -> f64 {
         let Self { shell, settings, surroundings, fingers, grasp, pushes, .. } = self;
         shell.predict(h, &settings.gravity, settings.velocity_damping);
         placement::push(shell, pushes, h, given);
@@ -121,10 +125,11 @@ impl World {
         if let Some(fingers) = fingers {
             self.pads.solve(shell, fingers, surroundings.frictions.pad, h);
         }
-        self.bodies.solve(shell, h, given);
+        let rolling = self.bodies.solve(shell, h, given);
         if let (Some(fingers), Some(grasp)) = (fingers, grasp) {
             grasp.draw(shell, &fingers.now, h);
         }
         shell.finish(h);
+        rolling
     }
 }

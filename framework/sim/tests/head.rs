@@ -14,9 +14,8 @@ use std::f64::consts::PI;
 const CAPS: [&str; 4] = ["cap-unseen-00", "cap-unseen-05", "cap-unseen-11", "cap-unseen-08"];
 /// The largest error that counts as worn, in diameters of the cap.
 const TOLERANCE_D: f64 = 0.1;
-/// The largest error of a cap that is let go where it is worn. Most come to rest within
-/// 0.01 d; one that stands loose tilts by 6 degrees and ends at 0.035 d.
-const CEILING_D: f64 = 0.05;
+/// The largest error of a cap that is let go where it is worn.
+const CEILING_D: f64 = 0.02;
 
 fn head() -> Head {
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.4);

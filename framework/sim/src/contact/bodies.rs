@@ -1,7 +1,7 @@
 //! Contact of a shell with the rigid bodies at rest around it.
 
 use super::resolve::push_out;
-use super::{Body, Resolution, Sample};
+use super::{Body, Probes, Sample};
 use crate::shell::{Momentum, Shell};
 use crate::world::FRAME_S;
 use nalgebra::Point3;
@@ -41,7 +41,7 @@ impl Bodies {
             near.between.clear();
             let close = |p: &Point3<f64>| body.may_reach(p, reach);
             near.vertices.extend((0..shell.position.len()).filter(|v| close(&shell.position[*v])));
-            if body.resolution == Resolution::Samples && !near.vertices.is_empty() {
+            if body.probes == Probes::Samples && !near.vertices.is_empty() {
                 let between = self.between.iter().filter(|s| close(&s.at(&shell.position)));
                 near.between.extend(between);
             }
@@ -49,15 +49,20 @@ impl Bodies {
     }
 
     /// Pushes the shell off the bodies, one after the other, in a substep of `h` seconds.
-    /// Adds what they gave the shell to `given`.
-    pub fn solve(&self, shell: &mut Shell, h: f64, given: &mut Momentum) {
+    /// Adds what they gave the shell to `given`, and tells what their rolling resistance may
+    /// take from its spin, N m s.
+    pub fn solve(&self, shell: &mut Shell, h: f64, given: &mut Momentum) -> f64 {
+        let mut rolling = 0.0;
         for (body, near) in &self.bodies {
+            let before = given.linear;
             let vertices = near.vertices.iter().copied();
             push_out(shell, vertices, |p| body.touch(p), body.friction, h, given);
             for sample in &near.between {
                 with_sample(shell, sample, body, h, given);
             }
+            rolling += (given.linear - before).norm() * body.rolling_arm_m();
         }
+        rolling
     }
 }
 

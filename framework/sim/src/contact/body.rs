@@ -6,6 +6,9 @@ use super::ellipsoid::Ellipsoid;
 use nalgebra::{Point3, Vector3};
 use seeone_core::Pose;
 
+/// See [`Body::rolling_arm_m`]; design value.
+const ROLLING_ARM_M: f64 = 5.0e-4;
+
 /// A smooth shape in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
@@ -60,7 +63,7 @@ impl Shape {
 
 /// What points of a shell a body has to be kept from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Resolution {
+pub enum Probes {
     /// The vertices: the body is wide and blunt beside a triangle.
     Vertices,
     /// Edge midpoints and triangle centroids as well: it could pass between vertices.
@@ -77,10 +80,17 @@ pub struct Body {
     /// Coulomb friction coefficient of its surface with fabric.
     pub friction: f64,
     /// What it touches the shell with.
-    pub resolution: Resolution,
+    pub probes: Probes,
 }
 
 impl Body {
+    /// Lever arm of its rolling resistance, metres. A flat support alone has one: a dome of
+    /// fabric on a soft mat flattens by so much more in front of the contact than behind
+    /// it. On a head or a peg an object does not roll, it sits.
+    pub fn rolling_arm_m(&self) -> f64 {
+        if self.shape == Shape::HalfSpace { ROLLING_ARM_M } else { 0.0 }
+    }
+
     /// Distance of `p` (world) from the surface in metres, negative inside.
     pub fn distance(&self, p: &Point3<f64>) -> f64 {
         self.shape.signed_distance(&self.pose.inverse_transform_point(p)).0

@@ -22,8 +22,6 @@ const TURNS: usize = 7;
 const FALLING_S: (f64, f64) = (0.12, 0.45);
 /// A drop is given this long to come to rest, seconds.
 const SETTLE_S: f64 = 5.0;
-/// Substeps of a frame while nothing is gripped.
-const SUBSTEPS: usize = 20;
 
 /// What all drops of an object share.
 pub struct Dropped<'a> {
@@ -57,7 +55,7 @@ impl<'a> Dropped<'a> {
     pub fn frames(&self, drop: usize) -> Vec<Frame> {
         let mut rng = generator(self.seed, &format!("{}/drop-{drop}", self.object.name()));
         let table = Surroundings { table: true, ..Surroundings::default() };
-        let settings = Settings { substeps: SUBSTEPS, ..Settings::default() };
+        let settings = Settings::for_drops();
         let mut world = Drop::draw([0.0, 0.0], &mut rng).begin(self.object, table, settings);
         let mut frames = Vec::new();
         // Objects take turns, so that a few drops of each still hold every moment.

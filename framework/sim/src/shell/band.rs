@@ -13,7 +13,11 @@ use nalgebra::{Point3, Vector3};
 /// tenth under some 50 N (design value).
 const TAPE_N: f64 = 500.0;
 
-/// The length of the band as one XPBD constraint.
+/// The length of the band as one XPBD constraint, which pulls only.
+///
+/// As with the springs, each substep meets it at both ends of its sweeps with half of the
+/// stiffness each time. Met once, between the sweeps, it shook a few hem vertices against
+/// the head for ever.
 #[derive(Clone, Debug)]
 pub struct Band {
     /// Vertices along the band.
@@ -67,9 +71,12 @@ impl Band {
                 self.gradient[*b] += apart / edge_m;
             }
         }
+        if length <= self.rest_m {
+            return; // a tape pulls; pushed, it would buckle in zigzag from edge to edge
+        }
         let pairs = || self.vertices.iter().zip(&self.gradient);
         let weight: f64 = pairs().map(|(v, g)| inverse_mass[*v] * g.norm_squared()).sum();
-        let lambda = -(length - self.rest_m) / (weight + 1.0 / (self.stiffness_n_m() * h * h));
+        let lambda = -(length - self.rest_m) / (weight + 2.0 / (self.stiffness_n_m() * h * h));
         for (v, g) in pairs() {
             position[*v] += g * (inverse_mass[*v] * lambda);
         }
@@ -77,7 +84,7 @@ impl Band {
 
     /// Elastic energy, J.
     pub fn energy(&self, position: &[Point3<f64>]) -> f64 {
-        self.stiffness_n_m() * (self.length(position) - self.rest_m).powi(2) / 2.0
+        self.stiffness_n_m() * (self.length(position) - self.rest_m).max(0.0).powi(2) / 2.0
     }
 
     fn stiffness_n_m(&self) -> f64 {

@@ -284,12 +284,12 @@ mod tests {
         let mut x = Vec::new();
         for degrees in [90.0, 170.0, 200.0] {
             x = at(degrees);
-            bend.solve(&mut x, &at(degrees), &[1e4; 4], 1e-3, 0.0);
+            bend.solve(&mut x, &at(degrees), &[1e4; 4], 1e-3);
         }
         let before = bend.hinges[0].off.abs();
         for _ in 0..100 {
             let previous = x.clone();
-            bend.solve(&mut x, &previous, &[1e4; 4], 1e-3, 0.0);
+            bend.solve(&mut x, &previous, &[1e4; 4], 1e-3);
         }
         let after = bend.hinges[0].off.abs();
         assert!(before > 3.0 && after < LARGEST_FOLD_RAD + 0.01, "{before} then {after} rad");

@@ -2,7 +2,7 @@
 
 use crate::contact::capsule::Capsule;
 use crate::contact::ellipsoid::Ellipsoid;
-use crate::contact::{Body, Resolution, Shape};
+use crate::contact::{Body, Probes, Shape};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use seeone_core::{HeadSize, Pose};
 
@@ -60,20 +60,20 @@ impl Head {
         let turn = UnitQuaternion::rotation_between(&-Vector3::z(), &axis).unwrap_or_default();
         let neck = Capsule { half_length: axis.norm() / 2.0, radius };
         let middle = Translation3::from(nalgebra::center(&top, &bottom).coords);
-        let body = |shape, placed: Pose, resolution| Body {
+        let body = |shape, placed: Pose, probes| Body {
             shape,
             pose: self.pose * placed,
             friction,
-            resolution,
+            probes,
         };
         let cranium = Shape::Ellipsoid(self.cranium());
-        let mut bodies = vec![body(cranium, Pose::identity(), Resolution::Vertices)];
+        let mut bodies = vec![body(cranium, Pose::identity(), Probes::Vertices)];
         bodies.extend(self.ears().map(|(middle, semi_axes)| {
             let placed = Pose::from_parts(middle.into(), UnitQuaternion::identity());
-            body(Shape::Ellipsoid(Ellipsoid { semi_axes }), placed, Resolution::Samples)
+            body(Shape::Ellipsoid(Ellipsoid { semi_axes }), placed, Probes::Samples)
         }));
         let placed = Pose::from_parts(middle, turn);
-        bodies.push(body(Shape::Capsule(neck), placed, Resolution::Vertices));
+        bodies.push(body(Shape::Capsule(neck), placed, Probes::Vertices));
         bodies
     }
 }

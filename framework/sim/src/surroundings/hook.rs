@@ -2,7 +2,7 @@
 
 use super::half_space;
 use crate::contact::capsule::Capsule;
-use crate::contact::{Body, Resolution, Shape};
+use crate::contact::{Body, Probes, Shape};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use seeone_core::Pose;
 
@@ -51,7 +51,7 @@ impl Hook {
             shape: Shape::Capsule(Capsule { half_length, radius }),
             pose: self.along_peg(along),
             friction,
-            resolution: Resolution::Samples,
+            probes: Probes::Samples,
         };
         [body(half_length, PEG_RADIUS_M, half_length), body(0.0, PEG_BALL_RADIUS_M, PEG_LENGTH_M)]
     }

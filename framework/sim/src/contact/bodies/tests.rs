@@ -64,7 +64,7 @@ fn sinks(ratio: f64, friction: f64) -> f64 {
         shape: Shape::Capsule(Capsule { half_length: 0.1, radius: RADIUS_M }),
         pose: Pose::from_parts(Translation3::identity(), turn),
         friction,
-        resolution: Resolution::Vertices,
+        probes: Probes::Vertices,
     };
     let mut bodies = Bodies::new(vec![cylinder], &[]);
     let (substeps, mut given) = (300, Momentum::zero());
@@ -111,7 +111,7 @@ fn what_is_left_out_of_a_frame_cannot_be_touched_in_it() {
     let mut rng = generator(4, "bodies");
     let mut left_out = 0;
     for shape in shapes {
-        let body = Body { shape, pose, friction: 0.3, resolution: Resolution::Samples };
+        let body = Body { shape, pose, friction: 0.3, probes: Probes::Samples };
         for _ in 0..2000 {
             let p = pose * Point3::from(direction(&mut rng) * uniform(&mut rng, 0.0, 0.1));
             if !body.may_reach(&p, 0.01) {

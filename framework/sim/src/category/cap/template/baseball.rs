@@ -15,7 +15,7 @@ pub const PATTERN: Pattern = Pattern {
 };
 
 pub const RANGES: Shape<Range> = Shape {
-    circumference: (0.532, 0.554),
+    circumference: (0.537, 0.554),
     oval: (0.75, 0.84),
     egg: (-0.03, 0.04),
     height: (0.088, 0.130),
