@@ -128,10 +128,10 @@ pub struct TeachArgs {
     /// The skill file to write; its cloud goes into a folder of its name beside it.
     pub skill: PathBuf,
     /// The object that is shown.
-    #[arg(long, default_value = "cap-train-000")]
+    #[arg(long, default_value = "cap-train-077")]
     pub object: String,
     /// Seed of the drop and of the camera's noise.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 4)]
     pub seed: u64,
     /// The robot that shows it.
     #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
