@@ -5,8 +5,10 @@
 //! is one matrix of `B * N` rows and `C` columns, and index tables count rows of it.
 
 pub mod card;
+mod chart;
 pub mod checkpoint;
 pub mod conv3d;
+pub mod curve;
 pub mod layers;
 pub mod matmul;
 pub mod ops;

@@ -7,6 +7,7 @@
 
 use crate::Parameters;
 use crate::checkpoint::{self, CheckpointError};
+use crate::curve::Curve;
 use crate::optimizer::AdamW;
 use crate::schedule::rate_factor;
 use candle_core::Tensor;
@@ -106,7 +107,8 @@ type ShardResult = candle_core::Result<(f64, Vec<f32>)>;
 /// Trains `parameters` until the plan is fulfilled or `progress` breaks off.
 ///
 /// `loss` gives the mean loss of the samples with the given numbers. With a `checkpoint`
-/// path the training resumes from the file when it is there, and leaves it behind.
+/// path the training resumes from the file when it is there, and leaves it behind, with the
+/// learning curve beside it (`*.curve.csv` and `*.curve.svg`).
 ///
 /// # Errors
 /// [`TrainError`]; a training that diverged leaves its last checkpoint as it was.
@@ -126,8 +128,12 @@ pub fn train(
         (values, adam, done) = checkpoint::read(path, &fingerprint, values.len())?;
         parameters.set_values(&values)?;
     }
-    let save = |values: &[f32], adam: &AdamW, done| match checkpoint {
-        Some(path) => checkpoint::write(path, &fingerprint, values, adam, done),
+    let mut curve = Curve::resume(checkpoint, done);
+    let save = |values: &[f32], adam: &AdamW, done, curve: &Curve| match checkpoint {
+        Some(path) => {
+            curve.save().map_err(|e| CheckpointError::File(path.into(), e))?;
+            checkpoint::write(path, &fingerprint, values, adam, done)
+        }
         None => Ok(()),
     };
     let total = plan.total();
@@ -144,16 +150,18 @@ pub fn train(
         done += plan.batch;
         (sum, batches) = (sum + batch_loss, batches + 1);
         let passed = |every: u64| done / every != before / every || done == total;
-        if passed(plan.checkpoint_every) {
-            save(&values, &adam, done)?;
-        }
-        if passed(REPORT_EVERY) {
+        let report = passed(REPORT_EVERY).then(|| {
             let report = Progress { done, total, loss: sum / f64::from(batches) };
             (sum, batches) = (0.0, 0);
-            if progress(report).is_break() && done < total {
-                save(&values, &adam, done)?;
-                return Ok(Ending::Interrupted);
-            }
+            curve.push(done, report.loss);
+            report
+        });
+        if passed(plan.checkpoint_every) {
+            save(&values, &adam, done, &curve)?;
+        }
+        if report.is_some_and(|report| progress(report).is_break()) && done < total {
+            save(&values, &adam, done, &curve)?;
+            return Ok(Ending::Interrupted);
         }
     }
     Ok(Ending::Finished)
@@ -261,7 +269,10 @@ mod tests {
         assert_eq!(fit(Some(&path), 700).0, Ending::Interrupted);
         let (ending, _, values) = fit(Some(&path), u64::MAX);
         assert_eq!(ending, Ending::Finished);
-        assert_eq!(values, fit(None, u64::MAX).2);
+        let whole = folder.path().join("whole.checkpoint");
+        assert_eq!(values, fit(Some(&whole), u64::MAX).2);
+        let curve = |path: &Path| std::fs::read(path.with_extension("curve.csv")).expect("a curve");
+        assert_eq!(curve(&path), curve(&whole));
     }
 
     #[test]
