@@ -98,9 +98,48 @@ const MOST_ATTEMPTS: u64 = 1 << 20;
 /// So that the last attempt has a seed as well.
 const LAST_FIRST_SEED: u64 = u64::MAX - MOST_ATTEMPTS;
 
-/// `eval`.
+/// `eval`: of a skill, or of a part alone.
 #[derive(Clone, Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct EvalArgs {
+    /// A part that is evaluated alone.
+    #[command(subcommand)]
+    pub part: Option<EvalPart>,
+    /// Of a skill.
+    #[command(flatten)]
+    pub skill: Option<EvalSkillArgs>,
+}
+
+/// What is evaluated alone.
+#[derive(Clone, Debug, Subcommand)]
+pub enum EvalPart {
+    /// Canonical coordinates told by the perception, against the truth of a set of frames.
+    Perception(EvalPerceptionArgs),
+}
+
+/// `eval perception`.
+#[derive(Clone, Debug, Args)]
+pub struct EvalPerceptionArgs {
+    /// A set of objects whose frames lie in `data/SET`.
+    #[arg(long, value_name = "SET", default_value = "unseen")]
+    pub objects: String,
+    /// The frames, if they lie elsewhere.
+    #[arg(long, value_name = "FOLDER")]
+    pub data: Option<PathBuf>,
+    /// The weights.
+    #[arg(long, value_name = "FOLDER", default_value = "plugins/nst/weights")]
+    pub weights: PathBuf,
+    /// Ask the refiner once, as the paper reads its network.
+    #[arg(long)]
+    pub one_pass: bool,
+    /// Print the figures as JSON on standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `eval SKILL`.
+#[derive(Clone, Debug, Args)]
+pub struct EvalSkillArgs {
     /// Skill, robot, scene, methods.
     #[command(flatten)]
     pub cell: CellArgs,

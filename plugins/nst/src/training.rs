@@ -263,7 +263,7 @@ fn measure(plan: &TrainPlan, card: &mut Card, progress: Told<'_>) -> Result<Repo
         let told = Progress { done: done as u64, total, loss: 0.0 };
         let _ = progress(StageProgress { stage: Stage::Evaluation, progress: told });
         let (index, frames) = read_all(folder)?;
-        let figures = evaluate(&nst, &index.objects, &frames);
+        let figures = Figures::of(&evaluate(&nst, &index.objects, &frames));
         note(card, name, &figures);
         all.insert(name.clone(), figures);
     }

@@ -1,6 +1,6 @@
 //! `eval`: many attempts, their rates and their reasons.
 
-use crate::args::EvalArgs;
+use crate::args::EvalSkillArgs;
 use crate::rate::Rate;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
@@ -39,7 +39,7 @@ const PROPER_YAW_DEG: f64 = 15.0;
 ///
 /// # Errors
 /// When something given is wrong; a run that fails is a row, not an error.
-pub fn run(args: &EvalArgs) -> Result<Ending> {
+pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
     let workcell = Workcell::open(&args.cell)?;
     let bar = ProgressBar::new(args.attempts).with_style(ProgressStyle::with_template(
         "eval {wide_bar} {pos}/{len} attempts, {eta} left",
@@ -69,7 +69,7 @@ pub fn run(args: &EvalArgs) -> Result<Ending> {
     Ok(Ending::Success)
 }
 
-fn report(args: &EvalArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
+fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
     let worn = |outcome: &Outcome, tolerance_d: f64| {
         let near = outcome.error_d.is_some_and(|e| e < tolerance_d);
         outcome.grasped == Some(true) && outcome.failed_at.is_none() && near

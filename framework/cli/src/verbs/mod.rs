@@ -4,6 +4,7 @@ pub mod check;
 pub mod data;
 pub mod eval;
 pub mod objects;
+pub mod perception;
 pub mod plugins;
 pub mod run;
 pub mod sheet;
