@@ -42,7 +42,8 @@ pub struct Felt {
     pub opening_m: f64,
     /// Whether something is between the pads.
     pub holding: bool,
-    /// Whether contact ended a move before its last sample.
+    /// Whether contact ended a move before its last sample: it met the force it was waiting
+    /// for, or what was held has been pushed out of the hand.
     pub contact: bool,
 }
 

@@ -120,7 +120,8 @@ impl SimulatedArm {
     }
 
     /// Follows a trajectory to its end or, with a force of contact in newtons, until the
-    /// load of what is held has changed by so much; says whether it has.
+    /// load of what is held has changed by so much or has slipped off the pads; says whether
+    /// it has.
     fn follow(
         &mut self,
         trajectory: &JointTrajectory,
@@ -143,12 +144,12 @@ impl SimulatedArm {
             let Some(command) = trajectory.at(frame as f64 * FRAME_S) else { break };
             self.servo.track(&mut self.joints, &command);
             let pose = self.model.tool_pose(&self.joints);
-            let change = {
+            let (change, holding) = {
                 let mut cell = self.lock()?;
                 cell.advance(&pose).map_err(PluginError::Internal)?;
-                (cell.load_n() - before).norm()
+                ((cell.load_n() - before).norm(), cell.pads_feel_load())
             };
-            let contact = contact_n.is_some_and(|force_n| change > force_n);
+            let contact = contact_n.is_some_and(|force_n| change > force_n || !holding);
             if frame % FRAMES_PER_SAMPLE == 0 || frame == frames || contact {
                 watch(&self.sample()?);
             }

@@ -38,6 +38,8 @@ pub(crate) struct Behaviour {
     pub(crate) drops: bool,
     /// Whether what is in the hand touches something on the way.
     pub(crate) touches: bool,
+    /// Whether it is pushed out of the hand by that.
+    pub(crate) slips: bool,
     /// Whether nothing is in sight.
     pub(crate) blind: bool,
 }
@@ -101,6 +103,7 @@ impl Robot for FakeRobot {
             watch(&RobotSample { time_s: self.time_s, state: state.clone() });
         }
         let contact = matches!(action, Action::MoveUntilContact { .. }) && self.behaviour.touches;
+        self.holding &= !(contact && self.behaviour.slips);
         Ok(Felt { opening_m: self.opening_m, holding: self.holding, contact })
     }
 }

@@ -96,18 +96,20 @@ impl Execution<'_> {
                 Action::Grip(command) => {
                     past.carrying = matches!(command, GripperCommand::Close { .. });
                 }
+                Action::MoveUntilContact { .. } if felt.contact => {
+                    let (rest, short_m) = self.replan(&step, past.carrying).map_err(failed)?;
+                    steps = rest;
+                    let pushed_out = past.carrying && !felt.holding;
+                    past.carrying = felt.holding;
+                    past.moves = None;
+                    let what = if pushed_out { "pushed out of the hand" } else { "contact" };
+                    past.note = Some(format!("{what} {:.0} mm before the pose", short_m * 1e3));
+                }
                 Action::Move(_) | Action::MoveUntilContact { .. }
                     if past.carrying && !felt.holding =>
                 {
                     let purpose = step.purpose;
                     return Err(failed(format!("lost the object on the way ({purpose})")));
-                }
-                Action::MoveUntilContact { .. } if felt.contact => {
-                    let (rest, short_m) = self.replan(&step, past.carrying).map_err(failed)?;
-                    steps = rest;
-                    past.moves = None;
-                    let short_mm = short_m * 1e3;
-                    past.note = Some(format!("contact {short_mm:.0} mm before the pose"));
                 }
                 Action::Move(trajectory) | Action::MoveUntilContact { trajectory, .. } => {
                     past.moves.iter_mut().for_each(|moves| moves.push(trajectory.clone()));

@@ -182,6 +182,11 @@ fn contact_ends_a_line_and_the_rest_is_planned_from_there() {
     // Approach as planned, then approach, grip and retreat of the new plan, which the fake
     // makes only for a hand that holds something.
     assert!((release.seconds - 4.0).abs() < 0.05, "{}", release.seconds);
+    let slips = Behaviour { slips: true, ..behaviour };
+    let slipped = self::finished(&cell, slips).outcome;
+    assert_eq!((slipped.success, slipped.failed_at), (Some(true), None));
+    let release = slipped.stages.iter().find(|stage| stage.name == "release").unwrap();
+    assert!(release.reason.as_deref().unwrap().starts_with("pushed out of the hand "));
     let behaviour = Behaviour { blocks_after: Some("release"), ..behaviour };
     let outcome = self::finished(&cell, behaviour).outcome;
     assert_eq!(
