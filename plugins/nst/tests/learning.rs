@@ -5,7 +5,7 @@ mod synthetic;
 use nalgebra::{Point3, Vector3};
 use seeone_core::frames::read_all;
 use seeone_nst::inference::{MOST_POINTS, NstError};
-use seeone_nst::{Nst, Report, Stage, StageProgress, TrainPlan, evaluate, train};
+use seeone_nst::{Figures, Nst, Report, Stage, StageProgress, TrainPlan, evaluate, train};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -44,7 +44,7 @@ fn learns_what_it_sees_and_answers_for_any_cloud() {
     let nst = Nst::load(&out).expect("loaded");
     assert!(nst.card().figures.contains_key("validation_settled_points_within_0.1_d"));
     let (index, frames) = read_all(&data).expect("the set");
-    let figures = evaluate(&nst, &index.objects, &frames);
+    let figures = Figures::of(&evaluate(&nst, &index.objects, &frames));
     assert_eq!((figures.settled.frames, figures.falling.frames), (6, 2));
     // 0.0004 before training, 0.16 after these few samples.
     assert!(figures.settled.within_01_d > 0.08, "{figures:?}");
