@@ -1,6 +1,8 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use clap::{
+    ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand, ValueEnum, value_parser,
+};
 use seeone_plugin::Kind;
 use seeone_runtime::methods::parse_override;
 use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
@@ -99,15 +101,12 @@ const MOST_ATTEMPTS: u64 = 1 << 20;
 const LAST_FIRST_SEED: u64 = u64::MAX - MOST_ATTEMPTS;
 
 /// `eval`: of a skill, or of a part alone.
-#[derive(Clone, Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct EvalArgs {
-    /// A part that is evaluated alone.
-    #[command(subcommand)]
-    pub part: Option<EvalPart>,
-    /// Of a skill.
-    #[command(flatten)]
-    pub skill: Option<EvalSkillArgs>,
+#[derive(Clone, Debug)]
+pub enum EvalArgs {
+    /// Many attempts with a skill.
+    Skill(EvalSkillArgs),
+    /// A part.
+    Part(EvalPart),
 }
 
 /// What is evaluated alone.
@@ -115,6 +114,36 @@ pub struct EvalArgs {
 pub enum EvalPart {
     /// Canonical coordinates told by the perception, against the truth of a set of frames.
     Perception(EvalPerceptionArgs),
+}
+
+// By hand, because a derived one wants the skill's arguments beside the subcommand's.
+impl Args for EvalArgs {
+    fn augment_args(command: Command) -> Command {
+        EvalPart::augment_subcommands(EvalSkillArgs::augment_args(command))
+            .args_conflicts_with_subcommands(true)
+            .subcommand_negates_reqs(true)
+            .subcommand_required(false)
+            .arg_required_else_help(false)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for EvalArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        if matches.subcommand_name().is_some() {
+            EvalPart::from_arg_matches(matches).map(Self::Part)
+        } else {
+            EvalSkillArgs::from_arg_matches(matches).map(Self::Skill)
+        }
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
 }
 
 /// `eval perception`.
@@ -132,6 +161,9 @@ pub struct EvalPerceptionArgs {
     /// Ask the refiner once, as the paper reads its network.
     #[arg(long)]
     pub one_pass: bool,
+    /// Write the figures into the weights' card, under the name of the set.
+    #[arg(long, conflicts_with = "one_pass")]
+    pub record: bool,
     /// Print the figures as JSON on standard output.
     #[arg(long)]
     pub json: bool,

@@ -18,7 +18,6 @@ use anyhow::Result;
 use args::{Cli, EvalArgs, EvalPart, ObjectsAction, PluginsAction, Verb};
 use clap::Parser;
 use faults::Faults;
-use seeone_core::Diagnostic;
 use std::process::ExitCode;
 
 /// glibc's allocator returns every large tensor to the kernel at once; half of a training
@@ -53,13 +52,8 @@ fn main() -> ExitCode {
 fn dispatch(verb: &Verb) -> Result<Ending> {
     match verb {
         Verb::Run(args) => verbs::run::run(args),
-        Verb::Eval(EvalArgs { part: Some(EvalPart::Perception(args)), .. }) => {
-            verbs::perception::run(args)
-        }
-        Verb::Eval(EvalArgs { part: None, skill: Some(args) }) => verbs::eval::run(args),
-        Verb::Eval(EvalArgs { part: None, skill: None }) => {
-            Err(Diagnostic::new("A001", "eval what?").hint("name a skill file").into())
-        }
+        Verb::Eval(EvalArgs::Skill(args)) => verbs::eval::run(args),
+        Verb::Eval(EvalArgs::Part(EvalPart::Perception(args))) => verbs::perception::run(args),
         Verb::Teach(args) => verbs::teach::run(args),
         Verb::Objects { action: ObjectsAction::List { json } } => verbs::objects::list(*json),
         Verb::Objects { action: ObjectsAction::Import(args) } => verbs::objects::import(args),

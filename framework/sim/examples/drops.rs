@@ -1,5 +1,6 @@
 //! Drops caps from seeded poses and prints what became of them as a Markdown table:
-//! `drops [DROPS [STRIDE]]` takes DROPS poses (5) of every STRIDE-th cap (1).
+//! `drops [DROPS [STRIDE]] [NAME...]` takes DROPS poses (5) of every STRIDE-th cap (1), or of
+//! the named ones.
 
 #[path = "../tests/common/drop_study.rs"]
 mod drop_study;
@@ -11,11 +12,14 @@ use seeone_sim::category::cap::{self, Set};
 use std::io::Write;
 
 fn main() -> std::io::Result<()> {
-    let number =
-        |n: usize, other| std::env::args().nth(n).and_then(|a| a.parse().ok()).unwrap_or(other);
-    let (drops, stride) = (number(1, 5), number(2, 1) as usize);
-    let settings = Settings::for_drops();
-    let names: Vec<String> = Set::ALL.into_iter().flat_map(cap::names).step_by(stride).collect();
+    let (numbers, mut names): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|a| a.parse::<usize>().is_ok());
+    let number = |n: usize, other| numbers.get(n).and_then(|a| a.parse().ok()).unwrap_or(other);
+    let (drops, stride) = (number(0, 5), number(1, 1) as usize);
+    if names.is_empty() {
+        names = Set::DISJOINT.into_iter().flat_map(cap::names).step_by(stride.max(1)).collect();
+    }
+    let settings = Settings::default();
     let outcomes: Vec<Outcome> = names
         .par_iter()
         .filter_map(|name| cap::named(name))
@@ -61,14 +65,17 @@ fn main() -> std::io::Result<()> {
         "| worst shape again | {:.2} mm |",
         1e3 * worst(&|o| o.shape_again_m.unwrap_or(0.0))
     )?;
-    writeln!(out, "\n| outside a bar | rest s | at the end mm/s | strain p99 | crossings |")?;
-    writeln!(out, "|---|---|---|---|---|")?;
-    let outside = |o: &&Outcome| o.rest_s.is_none() || o.strain_p99 > 0.05 || o.crossings > 0;
-    for o in outcomes.iter().filter(outside) {
+    writeln!(
+        out,
+        "\n| outside a bar | rest s | at the end | strain p99 | brim | crossings | shape again |"
+    )?;
+    writeln!(out, "|---|---|---|---|---|---|---|")?;
+    for o in outcomes.iter().filter(|o| !o.keeps_every_bar()) {
         let rest_s = o.rest_s.map_or("never".into(), |t| format!("{t:.2}"));
-        let (speed, strain) = (1e3 * o.speed_m_s, o.strain_p99);
-        let name = format!("{} drop {}", o.cap, o.drop);
-        writeln!(out, "| {name} | {rest_s} | {speed:.1} | {strain:.3} | {} |", o.crossings)?;
+        let (speed, strain, brim) = (1e3 * o.speed_m_s, 100.0 * o.strain_p99, o.brim_deg);
+        let again = o.shape_again_m.map_or("never".into(), |m| format!("{:.2} mm", 1e3 * m));
+        write!(out, "| {} drop {} | {rest_s} | {speed:.1} mm/s | {strain:.2} % ", o.cap, o.drop)?;
+        writeln!(out, "| {brim:.2} deg | {} | {again} |", o.crossings)?;
     }
     Ok(())
 }

@@ -78,7 +78,7 @@ mod tests {
     fn a_dropped_cap_comes_to_rest_on_the_mat_near_its_place() {
         let object = cap::named("cap-validation-00").expect("a cap");
         let drop = Drop::draw([0.4, -0.1], &mut generator(5, "drop"));
-        let settings = Settings::for_drops();
+        let settings = Settings::default();
         let table = Surroundings { table: true, ..Surroundings::default() };
         let mut world = drop.begin(&object, table, settings);
         assert!((lowest(world.vertices()) - drop.height_m).abs() < 1e-9);

@@ -37,6 +37,18 @@ pub struct Material {
     pub thickness_m: f64,
 }
 
+impl Material {
+    /// Bending stiffness above which a region counts as rigid: a moulded visor has 0.05 to
+    /// 0.3 N m, and sweeps at this resolution cannot tell it from a wet one without a
+    /// rigid cluster.
+    const RIGID_BENDING_N_M: f64 = 0.02;
+
+    /// Whether a region of it keeps its shape whatever happens.
+    pub fn is_rigid(&self) -> bool {
+        self.bending_n_m >= Self::RIGID_BENDING_N_M
+    }
+}
+
 /// What can be turned about the object's z axis without being another state of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

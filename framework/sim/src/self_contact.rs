@@ -28,6 +28,14 @@ const GRID_CELL_M: f64 = 0.01;
 /// pair: a seam would push itself open.
 const REST_CLEARANCE_M: f64 = 2.0 * SEPARATION_M;
 const REST_OVERLAP: f64 = 0.3;
+/// What is nearer than this at rest, whatever lies between, is no pair either: the layers of
+/// the tightest fold are one thickness apart where the fabric is half a turn of that
+/// diameter long.
+const FOLD_M: f64 = 0.5 * std::f64::consts::PI * SEPARATION_M;
+/// Pairs are sorted by how far they may move before they can touch, in rings of this width,
+/// metres.
+const RING_M: f64 = MARGIN_M / RINGS as f64;
+const RINGS: usize = 12;
 /// How far outside a triangle, in barycentric coordinates, a vertex is still above it.
 const OVERLAP: f64 = 0.02;
 
@@ -37,13 +45,14 @@ struct Pair {
     vertex: u32,
     /// +1 on the side that the normal points to, -1 on the other, 0 in a tangle.
     side: f64,
-    /// How far the two may move against each other before they can touch, metres.
-    slack_m: f64,
+    /// Zero for what may touch now; others may move against each other by one ring less
+    /// than this before they can.
+    ring: u8,
 }
 
 impl Pair {
-    fn key(&self) -> (u32, u32) {
-        (self.triangle, self.vertex)
+    fn ring(slack_m: f64) -> u8 {
+        if slack_m > 0.0 { ((slack_m / RING_M) as u8).saturating_add(1) } else { 0 }
     }
 }
 
@@ -57,8 +66,12 @@ pub struct SelfContact {
     /// Ascending by triangle, then vertex.
     pairs: Vec<Pair>,
     fresh: Vec<Pair>,
-    /// Indices of the pairs, ascending by slack.
+    /// Indices of the pairs, ring by ring, ascending in each.
     order: Vec<u32>,
+    /// How many of them are in each ring or one before it.
+    up_to: [usize; RINGS + 1],
+    /// Rings that are awake.
+    rings: usize,
     /// How many of them, from the front, may touch by now.
     awake: usize,
     /// Where the vertices were when the pairs were found, in the frame; empty before the
@@ -92,11 +105,14 @@ impl SelfContact {
             let corners = mesh.corners(index);
             let mut near = mesh.triangles()[index].to_vec();
             grid.for_each_around(&corners, REACH_M, |vertex| {
-                let at_rest =
-                    Facet::new(&corners).map(|f| f.above(&mesh.vertices()[vertex as usize]));
-                if at_rest
-                    .is_none_or(|a| a.is_over(REST_OVERLAP) && a.height.abs() < REST_CLEARANCE_M)
-                {
+                let at_rest = Facet::new(&corners).map(|facet| {
+                    let above = facet.above(&mesh.vertices()[vertex as usize]);
+                    (facet, above)
+                });
+                if at_rest.is_none_or(|(facet, above)| {
+                    above.is_over(REST_OVERLAP) && above.height.abs() < REST_CLEARANCE_M
+                        || facet.distance(&above) < FOLD_M
+                }) {
                     near.push(vertex);
                 }
             });
@@ -110,6 +126,8 @@ impl SelfContact {
             pairs: Vec::new(),
             fresh: Vec::new(),
             order: Vec::new(),
+            up_to: [0; RINGS + 1],
+            rings: 0,
             awake: 0,
             found_at: Vec::new(),
             tangle: Tangle::new(mesh),
@@ -157,49 +175,78 @@ impl SelfContact {
         self.found_at.extend(position.iter().map(inverse(frame)));
         self.grid.fill(position, GRID_CELL_M);
         self.fresh.clear();
-        let Self { triangles, exempt, grid, pairs, fresh, order, .. } = self;
+        let Self { triangles, exempt, grid, pairs, fresh, .. } = self;
+        let mut before = pairs.as_slice();
         for (t, triangle) in triangles.iter().enumerate() {
             let corners = triangle.map(|v| position[v as usize]);
             let Some(facet) = Facet::new(&corners) else { continue };
+            let passed = before.iter().take_while(|p| (p.triangle as usize) < t).count();
+            before = &before[passed..];
+            let first = fresh.len();
             grid.for_each_around(&corners, REACH_M, |vertex| {
                 let above = facet.above(&position[vertex as usize]);
                 if above.height.abs() > REACH_M || exempt[t].binary_search(&vertex).is_ok() {
                     return;
                 }
-                let key = (t as u32, vertex);
-                let known = pairs.binary_search_by_key(&key, Pair::key);
+                let mut of_this = before.iter().take_while(|p| p.triangle as usize == t);
+                let known = of_this.find(|p| p.vertex == vertex);
                 let side = match known {
-                    Ok(index) if above.is_over(OVERLAP) => pairs[index].side,
+                    Some(pair) if above.is_over(OVERLAP) => pair.side,
                     _ => above.height.signum(),
                 };
                 let behind = above.height * side <= 0.0;
                 let slack_m = if behind { 0.0 } else { facet.distance(&above) - NEAR_M };
-                fresh.push(Pair { triangle: t as u32, vertex, side, slack_m });
+                if slack_m < MARGIN_M {
+                    fresh.push(Pair {
+                        triangle: t as u32,
+                        vertex,
+                        side,
+                        ring: Pair::ring(slack_m),
+                    });
+                }
             });
+            fresh[first..].sort_unstable_by_key(|pair| pair.vertex);
         }
-        fresh.sort_unstable_by_key(Pair::key);
-        std::mem::swap(pairs, fresh);
+        std::mem::swap(&mut self.pairs, &mut self.fresh);
+        self.sort_into_rings();
+    }
+
+    /// A counting sort of the pairs.
+    fn sort_into_rings(&mut self) {
+        let Self { pairs, order, up_to, .. } = self;
+        *up_to = [0; RINGS + 1];
+        for pair in pairs.iter() {
+            up_to[pair.ring as usize] += 1;
+        }
+        for ring in 0..RINGS {
+            up_to[ring + 1] += up_to[ring];
+        }
+        let mut ends = *up_to;
         order.clear();
-        order.extend(0..pairs.len() as u32);
-        let slack = |index: &u32| pairs[*index as usize].slack_m;
-        order.sort_unstable_by(|a, b| slack(a).total_cmp(&slack(b)).then(a.cmp(b)));
-        self.awake = order.partition_point(|index| slack(index) <= 0.0);
+        order.resize(pairs.len(), 0);
+        for (index, pair) in pairs.iter().enumerate().rev() {
+            let end = &mut ends[pair.ring as usize];
+            *end -= 1;
+            order[*end] = index as u32;
+        }
+        self.rings = 0;
+        self.awake = self.up_to[0];
     }
 
     /// Wakes the pairs that may touch after a relative motion of `moved_m` since they were
     /// found. Until then each has been where it may change sides freely.
     fn wake(&mut self, position: &[Point3<f64>], moved_m: f64) {
-        let Self { triangles, pairs, order, awake, .. } = self;
-        while let Some(index) = order.get(*awake) {
-            let pair = &mut pairs[*index as usize];
-            if pair.slack_m > moved_m {
-                break;
+        let Self { triangles, pairs, order, up_to, rings, awake, .. } = self;
+        while *rings < RINGS && *rings as f64 * RING_M <= moved_m {
+            *rings += 1;
+            for index in &order[*awake..up_to[*rings]] {
+                let pair = &mut pairs[*index as usize];
+                let corners = triangles[pair.triangle as usize].map(|v| position[v as usize]);
+                if let Some(facet) = Facet::new(&corners) {
+                    pair.side = facet.above(&position[pair.vertex as usize]).height.signum();
+                }
             }
-            let corners = triangles[pair.triangle as usize].map(|v| position[v as usize]);
-            if let Some(facet) = Facet::new(&corners) {
-                pair.side = facet.above(&position[pair.vertex as usize]).height.signum();
-            }
-            *awake += 1;
+            *awake = up_to[*rings];
         }
     }
 
@@ -342,8 +389,10 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             exempt: vec![vec![0, 1, 2]],
             grid: Grid::default(),
-            pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, slack_m: 0.0 }],
+            pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, ring: 0 }],
             order: vec![0],
+            up_to: [1; RINGS + 1],
+            rings: 0,
             awake: 1,
             fresh: Vec::new(),
             found_at: points.clone(),

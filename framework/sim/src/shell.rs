@@ -27,10 +27,6 @@ use stretch::Stretch;
 
 /// Speed that no vertex exceeds, m/s: a drop from 0.15 m reaches 1.7.
 const SPEED_LIMIT_M_S: f64 = 5.0;
-/// Bending stiffness above which a region counts as rigid: a moulded visor has 0.05 to
-/// 0.3 N m, and sweeps at this resolution cannot tell it from a wet one without a
-/// rigid cluster.
-const RIGID_BENDING_N_M: f64 = 0.02;
 /// Length over which a stiffened region bends, metres.
 const BENDING_LENGTH_M: f64 = 0.07;
 
@@ -67,16 +63,23 @@ impl Shell {
         };
         let whole = Firmness::Frequency(object.softness_hz());
         let stiffened = [Region::Front, Region::Brim]
-            .map(|region| cluster(&object.vertices_of(region), firmness(object, region)));
+            .map(|region| (object.vertices_of(region), firmness(object, region)));
+        let rigid = |some: &[usize]| {
+            let hold = |part: &[usize]| some.iter().all(|v| part.binary_search(v).is_ok());
+            stiffened.iter().any(|(part, firm)| *firm == Firmness::Rigid && hold(part))
+        };
+        let (stretch, bend) =
+            (Stretch::new(mesh, &edges, &rigid), Bend::new(object, &edges, &rigid));
+        let stiffened = stiffened.iter().map(|(part, firm)| cluster(part, *firm));
         let clusters = [cluster(&everything, whole)].into_iter().chain(stiffened).flatten();
         let mut shell = Self {
             previous: position.clone(),
             velocity: vec![Vector3::zeros(); position.len()],
             inverse_mass: mass.iter().map(|m| 1.0 / m).collect(),
             bending_damping_s: bend::BENDING_DAMPING_S,
-            stretch: Stretch::new(mesh, &edges),
+            stretch,
             band: Band::new(object, &edges),
-            bend: Bend::new(object, &edges),
+            bend,
             clusters: clusters.collect(),
             rigid_part: vec![None; mass.len()],
             position,
@@ -89,8 +92,8 @@ impl Shell {
     /// Damps bending and moves every free vertex by its velocity under `gravity` (m/s2).
     /// Velocity decays at `damping` (1/s).
     pub fn predict(&mut self, h: f64, gravity: &Vector3<f64>, damping: f64) {
-        let (x, v, w) = (&self.position, &mut self.velocity, &self.inverse_mass);
-        self.bend.damp(x, v, w, h, self.bending_damping_s);
+        let (v, w) = (&mut self.velocity, &self.inverse_mass);
+        self.bend.damp(v, w, h, self.bending_damping_s);
         let keep = 1.0 / (1.0 + damping * h);
         self.previous.copy_from_slice(&self.position);
         for ((p, v), w) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.inverse_mass)
@@ -217,7 +220,7 @@ impl Shell {
 /// its material: f = 3.516 / (2 pi L^2) sqrt(B / rho).
 fn firmness(object: &Object, region: Region) -> Firmness {
     let material = &object.materials()[region.index()];
-    if material.bending_n_m >= RIGID_BENDING_N_M {
+    if material.is_rigid() {
         return Firmness::Rigid;
     }
     let wave = (material.bending_n_m / material.density_kg_m2).sqrt();

@@ -12,11 +12,11 @@ use seeone_sim::category::cap::{self, Set};
 /// Every eighth cap, five drops each; the example `drops` takes all.
 #[test]
 fn dropped_caps_come_to_rest_whole() {
-    let names: Vec<String> = Set::ALL.into_iter().flat_map(cap::names).step_by(8).collect();
+    let names: Vec<String> = Set::DISJOINT.into_iter().flat_map(cap::names).step_by(8).collect();
     let outcomes: Vec<Outcome> = names
         .par_iter()
         .map(|name| cap::named(name).expect("a cap of this name"))
-        .flat_map_iter(|cap| study(&cap, 5, &Settings::for_drops()))
+        .flat_map_iter(|cap| study(&cap, 5, &Settings::default()))
         .collect();
     let within = |limit: f64, rest_s: fn(&Outcome) -> Option<f64>| {
         let count = outcomes.iter().filter(|o| rest_s(o).is_some_and(|t| t <= limit)).count();

@@ -26,4 +26,4 @@ pub mod units;
 pub use evaluate::{Figures, evaluate};
 pub use inference::{Effort, Nst, NstError, Perceived};
 pub use plugin::{NstPerception, build, build_one_pass};
-pub use training::{NstTrainError, Report, Stage, StageProgress, TrainPlan, train};
+pub use training::{NstTrainError, Report, Stage, StageProgress, TrainPlan, record, train};

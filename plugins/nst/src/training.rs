@@ -271,6 +271,16 @@ fn measure(plan: &TrainPlan, card: &mut Card, progress: Told<'_>) -> Result<Repo
     Ok(Report::Finished(all))
 }
 
+/// Writes `figures` on the frames of `set` into the card of the weights in `folder`.
+///
+/// # Errors
+/// When the card cannot be read or written.
+pub fn record(folder: &Path, set: &str, figures: &Figures) -> Result<(), Diagnostic> {
+    let mut card = Card::read(folder)?;
+    note(&mut card, set, figures);
+    card.write(folder)
+}
+
 fn note(card: &mut Card, set: &str, figures: &Figures) {
     let groups =
         [("settled", &figures.settled), ("falling", &figures.falling), ("held", &figures.held)];

@@ -6,7 +6,7 @@ use anyhow::Result;
 use seeone_core::Diagnostic;
 use seeone_core::frames::{CanonicalObject, Moment, read_all};
 use seeone_nst::evaluate::{CONFIDENCE_BINS, ConfidenceBin, FrameFigures, Group, LOST_DEG};
-use seeone_nst::{Effort, Nst, evaluate};
+use seeone_nst::{Effort, Figures, Nst, evaluate, record};
 use seeone_sim::category::cap;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -36,6 +36,9 @@ pub fn run(args: &EvalPerceptionArgs) -> Result<Ending> {
     let effort = if args.one_pass { Effort::OnePass } else { Effort::Full };
     let nst = Nst::load(&args.weights)?.with_effort(effort);
     let figures = evaluate(&nst, &index.objects, &frames);
+    if args.record {
+        record(&args.weights, &args.objects, &Figures::of(&figures))?;
+    }
     let report = report(args, data, &index.objects, &figures);
     if args.json {
         console::answer(&serde_json::to_string_pretty(&report)?)?;
@@ -79,6 +82,13 @@ fn report(
     for name in templates {
         let group = Group::of(at_rest().filter(|f| template(f) == name));
         groups.push((format!("at rest, {name}"), group));
+    }
+    let mut seen: Vec<usize> = at_rest().map(|f| f.object).collect();
+    seen.sort_unstable();
+    seen.dedup();
+    for object in seen {
+        let group = Group::of(at_rest().filter(|f| f.object == object));
+        groups.push((format!("at rest, {}", objects[object].name), group));
     }
     for bounds in VISIBLE.windows(2) {
         let inside = |f: &&FrameFigures| (bounds[0]..bounds[1]).contains(&f.visible);

@@ -55,7 +55,7 @@ impl<'a> Dropped<'a> {
     pub fn frames(&self, drop: usize) -> Vec<Frame> {
         let mut rng = generator(self.seed, &format!("{}/drop-{drop}", self.object.name()));
         let table = Surroundings { table: true, ..Surroundings::default() };
-        let settings = Settings::for_drops();
+        let settings = Settings::default();
         let mut world = Drop::draw([0.0, 0.0], &mut rng).begin(self.object, table, settings);
         let mut frames = Vec::new();
         // Objects take turns, so that a few drops of each still hold every moment.

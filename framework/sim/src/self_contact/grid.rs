@@ -14,9 +14,9 @@ pub struct Grid {
     counts: [usize; 3],
     /// Where each cell's points start in `order`; one entry more than cells.
     starts: Vec<u32>,
-    order: Vec<u32>,
+    /// The points, cell by cell, with their indices.
+    sorted: Vec<(Point3<f64>, u32)>,
     cell_of: Vec<u32>,
-    points: Vec<Point3<f64>>,
 }
 
 impl Grid {
@@ -31,8 +31,6 @@ impl Grid {
         self.low = low;
         self.cell_m = cell_m.max((high - low).max() / CELLS_PER_AXIS as f64);
         self.counts = [0, 1, 2].map(|k| ((high[k] - low[k]) / self.cell_m) as usize + 1);
-        self.points.clear();
-        self.points.extend_from_slice(points);
 
         let cells = self.counts.iter().product::<usize>();
         self.starts.clear();
@@ -47,14 +45,14 @@ impl Grid {
         for cell in 0..cells {
             self.starts[cell + 1] += self.starts[cell];
         }
-        self.order.clear();
-        self.order.resize(points.len(), 0);
+        self.sorted.clear();
+        self.sorted.resize(points.len(), (Point3::origin(), 0));
         // Backwards, with the end of each cell as the cursor, leaves indices ascending
         // and `starts` shifted down to where it belongs.
-        for (point, cell) in self.cell_of.iter().enumerate().rev() {
+        for (index, cell) in self.cell_of.iter().enumerate().rev() {
             let end = &mut self.starts[*cell as usize + 1];
             *end -= 1;
-            self.order[*end as usize] = point as u32;
+            self.sorted[*end as usize] = (points[index], index as u32);
         }
         self.starts.remove(0);
         self.starts.push(points.len() as u32);
@@ -74,10 +72,9 @@ impl Grid {
             for y in first[1]..=last[1] {
                 let row = self.index(first[0], y, z)..=self.index(last[0], y, z);
                 let range = self.starts[*row.start()] as usize..self.starts[row.end() + 1] as usize;
-                for point in &self.order[range] {
-                    let p = &self.points[*point as usize];
+                for (p, index) in &self.sorted[range] {
                     if (0..3).all(|k| low[k] <= p[k] && p[k] <= high[k]) {
-                        visit(*point);
+                        visit(*index);
                     }
                 }
             }

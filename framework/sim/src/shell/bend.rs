@@ -28,6 +28,8 @@ struct Hinge {
     stiffness_n_m: f64,
     /// The region of both its triangles, unless it is a seam.
     region: Option<Region>,
+    /// The angle's gradient when it was last solved.
+    gradient: [Vector3<f64>; 4],
 }
 
 impl Hinge {
@@ -59,14 +61,17 @@ impl Hinge {
 #[derive(Clone, Debug)]
 pub struct Bend {
     hinges: Vec<Hinge>,
+    /// Those inside a rigid part, which keeps their angles without them.
+    idle: Vec<Hinge>,
 }
 
 impl Bend {
     /// Hinges over the `edges` of the object's rest shape, coloured. A seam between two
-    /// regions is as soft as the softer of them.
-    pub fn new(object: &Object, edges: &[Edge]) -> Self {
+    /// regions is as soft as the softer of them. `rigid` tells whether vertices belong to
+    /// one rigid part.
+    pub fn new(object: &Object, edges: &[Edge], rigid: &dyn Fn(&[usize]) -> bool) -> Self {
         let mesh = object.mesh();
-        let mut hinges = Vec::new();
+        let (mut hinges, mut idle) = (Vec::new(), Vec::new());
         for edge in edges {
             for pair in edge.triangles.windows(2) {
                 let [one, other] = [pair[0], pair[1]];
@@ -86,19 +91,21 @@ impl Bend {
                 if let Some(Bent { off: rest_angle, .. }) = bent(&points, (0.0, 1.0)) {
                     let rest = rest_angle.sin_cos();
                     let stiffness_n_m = bending * (points[1] - points[0]).norm_squared() / areas;
-                    hinges.push(Hinge {
+                    let of = if rigid(&corners) { &mut idle } else { &mut hinges };
+                    of.push(Hinge {
                         corners,
                         rest,
                         rest_angle,
                         off: 0.0,
                         stiffness_n_m,
                         region,
+                        gradient: [Vector3::zeros(); 4],
                     });
                 }
             }
         }
         by_colour(&mut hinges, mesh.vertices().len(), |h| h.corners);
-        Self { hinges }
+        Self { hinges, idle }
     }
 
     /// One sweep of a substep of `h` seconds. `previous` are the positions at its start.
@@ -112,6 +119,7 @@ impl Bend {
         for hinge in &mut self.hinges {
             let points = hinge.corners.map(|v| position[v]);
             let Some(Bent { off, gradient }) = bent(&points, hinge.rest) else { continue };
+            hinge.gradient = gradient;
             let off = hinge.follow(off);
             let weight = hinge.weight(&gradient, inverse_mass);
             if weight <= 0.0 {
@@ -138,22 +146,22 @@ impl Bend {
     ///
     /// Not inside the sweep over positions: there it also brakes the way back from what
     /// gravity and the sweep's other constraints have just added, and a shell at rest
-    /// hangs lower by a share of about k w beta h (stiffness, inverse mass, damping).
+    /// hangs lower by a share of about k w beta h (stiffness, inverse mass, damping). The
+    /// gradients are those of the last sweep: the substep's small motion since then changes
+    /// the damping a little, and working them out anew would cost as much as the sweep.
     pub fn damp(
         &self,
-        position: &[Point3<f64>],
         velocity: &mut [Vector3<f64>],
         inverse_mass: &[f64],
         h: f64,
         damping_s: f64,
     ) {
         for hinge in &self.hinges {
-            let points = hinge.corners.map(|v| position[v]);
-            let Some(Bent { gradient, .. }) = bent(&points, hinge.rest) else { continue };
+            let gradient = &hinge.gradient;
             let pairs = gradient.iter().zip(&hinge.corners);
             let rate: f64 = pairs.map(|(g, v)| g.dot(&velocity[*v])).sum();
             let strength = hinge.stiffness_n_m * damping_s * h;
-            let weight = hinge.weight(&gradient, inverse_mass);
+            let weight = hinge.weight(gradient, inverse_mass);
             let impulse = -strength * rate / (1.0 + strength * weight);
             for (k, v) in hinge.corners.iter().enumerate() {
                 velocity[*v] += gradient[k] * (inverse_mass[*v] * impulse);
@@ -161,9 +169,12 @@ impl Bend {
         }
     }
 
-    /// Takes every hinge to be bent by less than half a turn from rest.
+    /// Takes every hinge to be bent by less than half a turn from rest, and at rest.
     pub fn forget(&mut self) {
-        self.hinges.iter_mut().for_each(|h| h.off = 0.0);
+        for hinge in &mut self.hinges {
+            hinge.off = 0.0;
+            hinge.gradient = [Vector3::zeros(); 4];
+        }
     }
 
     /// Elastic energy, J.
@@ -172,16 +183,20 @@ impl Bend {
             let bent = bent(&h.corners.map(|v| position[v]), h.rest);
             bent.map_or(0.0, |b| h.stiffness_n_m * b.off.powi(2) / 2.0)
         };
-        self.hinges.iter().map(energy).sum()
+        self.all().map(energy).sum()
     }
 
     /// Root mean square angle from rest of the hinges inside `region`, radians; 0 without
     /// any.
     pub fn error(&self, position: &[Point3<f64>], region: Region) -> f64 {
-        let inside = self.hinges.iter().filter(|h| h.region == Some(region));
+        let inside = self.all().filter(|h| h.region == Some(region));
         let bent = inside.filter_map(|h| bent(&h.corners.map(|v| position[v]), h.rest));
         let (sum, count) = bent.fold((0.0, 0), |(sum, n), b| (sum + b.off * b.off, n + 1));
         (sum / f64::from(count.max(1))).sqrt()
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Hinge> {
+        self.hinges.iter().chain(&self.idle)
     }
 
     /// The same hinges with `factor` times the stiffness; none at all for a factor of 0.
@@ -280,7 +295,9 @@ mod tests {
         let object = Object::new("pair", "pair", mesh, vec![Region::Crown; 2], [cloth; 4], 0.0)
             .expect("an object");
         let mut bend =
-            Bend::new(&object, &super::super::topology::edges(object.mesh().triangles()));
+            Bend::new(&object, &super::super::topology::edges(object.mesh().triangles()), &|_| {
+                false
+            });
         let mut x = Vec::new();
         for degrees in [90.0, 170.0, 200.0] {
             x = at(degrees);

@@ -25,12 +25,15 @@ struct Spring {
 #[derive(Clone, Debug)]
 pub struct Stretch {
     springs: Vec<Spring>,
+    /// Those inside a rigid part, which keeps their lengths without them.
+    idle: Vec<Spring>,
 }
 
 impl Stretch {
     /// Springs over the edges of the rest shape `mesh`, coloured, with border edges last
-    /// so that the opening keeps its length best.
-    pub fn new(mesh: &TriangleMesh, edges: &[Edge]) -> Self {
+    /// so that the opening keeps its length best. `rigid` tells whether vertices belong to
+    /// one rigid part.
+    pub fn new(mesh: &TriangleMesh, edges: &[Edge], rigid: &dyn Fn(&[usize]) -> bool) -> Self {
         let spring = |edge: &Edge| {
             let [a, b] = edge.ends.map(|v| mesh.vertices()[v]);
             let squared = (b - a).norm_squared();
@@ -41,11 +44,13 @@ impl Stretch {
                 stiffness_n_m: MEMBRANE_N_M * area / squared.max(f64::MIN_POSITIVE),
             }
         };
-        let inside = edges.iter().filter(|e| !e.is_border());
-        let mut springs: Vec<Spring> = inside.map(spring).collect();
+        let (idle, edges): (Vec<&Edge>, Vec<&Edge>) = edges.iter().partition(|e| rigid(&e.ends));
+        let (border, inside): (Vec<&Edge>, Vec<&Edge>) =
+            edges.into_iter().partition(|e| e.is_border());
+        let mut springs: Vec<Spring> = inside.into_iter().map(spring).collect();
         by_colour(&mut springs, mesh.vertices().len(), |s| s.ends);
-        springs.extend(edges.iter().filter(|e| e.is_border()).map(spring));
-        Self { springs }
+        springs.extend(border.into_iter().map(spring));
+        Self { springs, idle: idle.into_iter().map(spring).collect() }
     }
 
     /// The sweep before bending.
@@ -61,14 +66,14 @@ impl Stretch {
     /// Elastic energy, J.
     pub fn energy(&self, position: &[Point3<f64>]) -> f64 {
         let energy = |s: &Spring| s.stiffness_n_m * s.excess(position).powi(2) / 2.0;
-        self.springs.iter().map(energy).sum()
+        self.all().map(energy).sum()
     }
 
     /// Mean and largest absolute strain over the edges.
     pub fn strain(&self, position: &[Point3<f64>]) -> (f64, f64) {
         let add = |(sum, worst): (f64, f64), e: f64| (sum + e, worst.max(e));
         let (sum, worst) = self.strains(position).fold((0.0, 0.0), add);
-        (sum / self.springs.len().max(1) as f64, worst)
+        (sum / self.all().count().max(1) as f64, worst)
     }
 
     /// The absolute strain that `share` (0 to 1) of the edges do not exceed.
@@ -80,7 +85,11 @@ impl Stretch {
     }
 
     fn strains(&self, position: &[Point3<f64>]) -> impl Iterator<Item = f64> {
-        self.springs.iter().map(|s| s.excess(position).abs() / s.rest_m)
+        self.all().map(|s| s.excess(position).abs() / s.rest_m)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Spring> {
+        self.springs.iter().chain(&self.idle)
     }
 }
 

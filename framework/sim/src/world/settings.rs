@@ -15,15 +15,6 @@ pub struct Settings {
     pub self_contact: bool,
 }
 
-impl Settings {
-    /// For objects that fall and come to rest: the fewest substeps at which 99 % of the
-    /// edges of every cap at rest are strained by less than 5 %.
-    pub fn for_drops() -> Self {
-        Self { substeps: 25, ..Self::default() }
-    }
-}
-
-/// For grips and for what is worn or hung.
 impl Default for Settings {
     fn default() -> Self {
         Self {

@@ -29,7 +29,8 @@ pub struct Outcome {
     /// Root mean square speed at the end, m/s.
     pub speed_m_s: f64,
     pub strain_p99: f64,
-    /// Root mean square hinge error of the visor, degrees.
+    /// Root mean square hinge error of a rigid visor, degrees; 0 for a soft brim, which
+    /// droops as it should.
     pub brim_deg: f64,
     pub crossings: usize,
     /// Mean distance of the vertices from the worn state after this drop and a new
@@ -37,6 +38,19 @@ pub struct Outcome {
     pub worn_again_m: Option<f64>,
     /// The same with the best rigid motion taken out: of the shape alone.
     pub shape_again_m: Option<f64>,
+}
+
+impl Outcome {
+    /// Whether it came to rest in time, whole, on top of the table and in its own shape.
+    pub fn keeps_every_bar(&self) -> bool {
+        self.finite
+            && self.lowest_m > -1e-4
+            && self.rest_s.is_some()
+            && self.strain_p99 < 0.05
+            && self.brim_deg < 2.0
+            && self.crossings == 0
+            && self.shape_again_m.is_some_and(|m| m < 0.005)
+    }
 }
 
 /// Drops `cap` from the seeds 1 to `drops` and looks at each.
@@ -67,6 +81,7 @@ fn one(cap: &Object, seed: u64, settings: &Settings, worn: Option<&[Point3<f64>]
             break;
         }
     }
+    let visor = cap.materials()[Region::Brim.index()].is_rigid();
     let again = worn.and_then(|w| worn_again(cap, world.vertices(), settings, w));
     Outcome {
         cap: cap.name().to_owned(),
@@ -77,7 +92,7 @@ fn one(cap: &Object, seed: u64, settings: &Settings, worn: Option<&[Point3<f64>]
         rest_s,
         speed_m_s: world.rms_speed(),
         strain_p99: world.strain_quantile(0.99),
-        brim_deg: world.hinge_error(Region::Brim).to_degrees(),
+        brim_deg: if visor { world.hinge_error(Region::Brim).to_degrees() } else { 0.0 },
         crossings: world.crossings(),
         worn_again_m: again.map(|a| a.0),
         shape_again_m: again.map(|a| a.1),
