@@ -29,12 +29,14 @@ const PITCH_DEG: f64 = 2.0;
 const GRIP_N: f64 = 140.0;
 /// Over the worn pose: height in metres, and by how many degrees the cap's nose is up. It
 /// arrives back first, ...
-const ARRIVE: (f64, f64) = (0.15, 10.0);
-/// ... is nearly level before any cap can meet the head, ...
-const LEVEL: (f64, f64) = (0.07, 5.0);
+const ARRIVE: (f64, f64) = (0.15, 5.0);
+/// ... is level before any cap can meet the head, ...
+const LEVEL: (f64, f64) = (0.07, 0.0);
 /// ... and is let go here at the latest: how deep a crown sits differs by 12 mm (standard
-/// deviation) from cap to cap, so the hand feels for the head.
-const LOWEST: (f64, f64) = (-0.025, 0.0);
+/// deviation) from cap to cap, so the hand feels for the head. The nose is pulled down on the
+/// way: a hem that keeps its length stays where it was drawn to, and let go level, caps sit
+/// back on the head.
+const LOWEST: (f64, f64) = (-0.025, -8.0);
 /// It is let go as soon as the head bears so much, newtons: pulled on as a person would, and
 /// enough for an arm's force estimate to tell from noise.
 const CONTACT_N: f64 = 20.0;
