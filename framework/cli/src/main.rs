@@ -11,6 +11,7 @@ mod outputs;
 mod picture;
 mod rate;
 mod simulated;
+mod threads;
 mod verbs;
 mod workcell;
 
@@ -34,6 +35,7 @@ enum Ending {
 }
 
 fn main() -> ExitCode {
+    threads::keep_candle_to_one();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {

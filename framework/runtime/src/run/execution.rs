@@ -20,7 +20,7 @@ use std::collections::VecDeque;
 const SNAPSHOT_PERIOD_S: f64 = 0.1;
 
 /// From where contact ended a line the whole retreat may be out of reach: so much of it is tried.
-const RETREAT_SHARES: [f64; 3] = [1.0, 0.75, 0.5];
+const RETREAT_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.2];
 
 /// How a program ended that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
