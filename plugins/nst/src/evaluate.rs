@@ -9,7 +9,7 @@ use seeone_core::Similarity;
 use seeone_core::frames::{CanonicalObject, Frame, Moment};
 use seeone_core::random::{Generator, direction, generator, normal};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Points nearer than this to the mirror plane (canonical units) have no clear side.
 const NO_SIDE: f64 = 0.1;
@@ -146,7 +146,7 @@ impl<'a> Truth<'a> {
     /// Share of the vertices that have one of `nocs` nearby.
     fn visible(&self, nocs: &[[f32; 3]]) -> f64 {
         let cell = |p: [f64; 3]| p.map(|v| (v / SEEN).floor() as i32);
-        let mut cells: HashMap<[i32; 3], Vec<[f64; 3]>> = HashMap::new();
+        let mut cells: BTreeMap<[i32; 3], Vec<[f64; 3]>> = BTreeMap::new();
         for p in nocs {
             let p = p.map(f64::from);
             cells.entry(cell(p)).or_default().push(p);
