@@ -70,9 +70,7 @@ pub struct SelfContact {
     order: Vec<u32>,
     /// How many of them are in each ring or one before it.
     up_to: [usize; RINGS + 1],
-    /// Rings that are awake.
-    rings: usize,
-    /// How many of them, from the front, may touch by now.
+    /// The last ring whose pairs may touch by now.
     awake: usize,
     /// Where the vertices were when the pairs were found, in the frame; empty before the
     /// first time.
@@ -127,7 +125,6 @@ impl SelfContact {
             fresh: Vec::new(),
             order: Vec::new(),
             up_to: [0; RINGS + 1],
-            rings: 0,
             awake: 0,
             found_at: Vec::new(),
             tangle: Tangle::new(mesh),
@@ -229,24 +226,22 @@ impl SelfContact {
             *end -= 1;
             order[*end] = index as u32;
         }
-        self.rings = 0;
-        self.awake = self.up_to[0];
+        self.awake = 0;
     }
 
     /// Wakes the pairs that may touch after a relative motion of `moved_m` since they were
     /// found. Until then each has been where it may change sides freely.
     fn wake(&mut self, position: &[Point3<f64>], moved_m: f64) {
-        let Self { triangles, pairs, order, up_to, rings, awake, .. } = self;
-        while *rings < RINGS && *rings as f64 * RING_M <= moved_m {
-            *rings += 1;
-            for index in &order[*awake..up_to[*rings]] {
+        let Self { triangles, pairs, order, up_to, awake, .. } = self;
+        while *awake < RINGS && *awake as f64 * RING_M <= moved_m {
+            *awake += 1;
+            for index in &order[up_to[*awake - 1]..up_to[*awake]] {
                 let pair = &mut pairs[*index as usize];
                 let corners = triangles[pair.triangle as usize].map(|v| position[v as usize]);
                 if let Some(facet) = Facet::new(&corners) {
                     pair.side = facet.above(&position[pair.vertex as usize]).height.signum();
                 }
             }
-            *awake = up_to[*rings];
         }
     }
 
@@ -284,7 +279,7 @@ impl SelfContact {
         inverse_mass: &[f64],
         h: f64,
     ) {
-        for index in &self.order[..self.awake] {
+        for index in &self.order[..self.up_to[self.awake]] {
             let pair = &mut self.pairs[*index as usize];
             let ids = self.triangles[pair.triangle as usize].map(|v| v as usize);
             let corners = ids.map(|v| position[v]);
@@ -392,8 +387,7 @@ mod tests {
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, ring: 0 }],
             order: vec![0],
             up_to: [1; RINGS + 1],
-            rings: 0,
-            awake: 1,
+            awake: 0,
             fresh: Vec::new(),
             found_at: points.clone(),
             tangle: Tangle::new(

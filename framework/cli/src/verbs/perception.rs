@@ -9,6 +9,7 @@ use seeone_nst::evaluate::{CONFIDENCE_BINS, ConfidenceBin, FrameFigures, Group, 
 use seeone_nst::{Effort, Figures, Nst, evaluate, record};
 use seeone_sim::category::cap;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Bounds of the visible share that are told apart.
@@ -76,20 +77,8 @@ fn report(
             })
             .into();
     groups.push(("all".into(), Group::of(figures.iter())));
-    let mut templates: Vec<&str> = at_rest().map(template).collect();
-    templates.sort_unstable();
-    templates.dedup();
-    for name in templates {
-        let group = Group::of(at_rest().filter(|f| template(f) == name));
-        groups.push((format!("at rest, {name}"), group));
-    }
-    let mut seen: Vec<usize> = at_rest().map(|f| f.object).collect();
-    seen.sort_unstable();
-    seen.dedup();
-    for object in seen {
-        let group = Group::of(at_rest().filter(|f| f.object == object));
-        groups.push((format!("at rest, {}", objects[object].name), group));
-    }
+    groups.extend(by(at_rest(), |f| format!("at rest, {}", template(f))));
+    groups.extend(by(at_rest(), |f| format!("at rest, {}", objects[f.object].name)));
     for bounds in VISIBLE.windows(2) {
         let inside = |f: &&FrameFigures| (bounds[0]..bounds[1]).contains(&f.visible);
         let name = format!(
@@ -111,6 +100,16 @@ fn report(
         lost_at_rest: lost(&by_confidence),
         lost_at_rest_and_doubtful: lost(&by_confidence[..doubtful]),
     }
+}
+
+/// The frames in groups by name, in the order of the names.
+fn by<'a>(
+    frames: impl Iterator<Item = &'a FrameFigures>,
+    name: impl Fn(&FrameFigures) -> String,
+) -> Vec<(String, Group)> {
+    let mut groups: BTreeMap<String, Vec<&FrameFigures>> = BTreeMap::new();
+    frames.for_each(|f| groups.entry(name(f)).or_default().push(f));
+    groups.into_iter().map(|(name, frames)| (name, Group::of(frames.iter().copied()))).collect()
 }
 
 /// The points of all frames at rest by their confidence.
