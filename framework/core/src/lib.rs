@@ -16,6 +16,7 @@ pub mod pose;
 pub mod random;
 pub mod robot;
 pub mod similarity_fit;
+pub mod vectorize;
 pub mod winding;
 
 pub use camera::{DepthImage, Intrinsics};

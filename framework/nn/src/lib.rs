@@ -17,7 +17,6 @@ pub mod parameters;
 pub mod sampling;
 pub mod schedule;
 pub mod train;
-mod vectorize;
 pub mod volume;
 pub mod weights;
 

@@ -1,6 +1,6 @@
 //! AdamW on flat vectors (Loshchilov and Hutter 2019).
 
-use crate::vectorize::vectorize;
+use seeone_core::vectorize::vectorize;
 
 /// Decay of the first moment.
 const BETA_1: f32 = 0.9;

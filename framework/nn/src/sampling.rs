@@ -3,7 +3,7 @@
 //! Everything here is a deterministic function of its arguments; ties go to the point
 //! named first.
 
-use crate::vectorize::vectorize;
+use seeone_core::vectorize::vectorize;
 
 /// A point in the units of the network's input.
 pub type Point = [f32; 3];

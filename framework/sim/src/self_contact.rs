@@ -4,12 +4,18 @@
 //! each pair remembers on which side of the triangle its vertex is, so that a vertex
 //! pushed through in one substep is brought back in the next.
 
+mod facet;
 mod grid;
+mod near;
+mod snapshot;
 mod tangle;
 
+use facet::Facet;
 use grid::Grid;
 use nalgebra::{Point3, Vector3};
+use near::Near;
 use seeone_core::{Pose, TriangleMesh};
+use snapshot::Snapshot;
 use tangle::Tangle;
 
 /// Smallest distance kept between two layers, metres: two half thicknesses of 1.5 mm.
@@ -22,8 +28,6 @@ const MARGIN_M: f64 = 3.0e-3;
 const REACH_M: f64 = SEPARATION_M + MARGIN_M;
 /// What is nearer than this may touch within the next substep, metres.
 const NEAR_M: f64 = SEPARATION_M + 1.0e-3;
-/// Edge of a cell of the search grid, metres: about an edge of the mesh.
-const GRID_CELL_M: f64 = 0.01;
 /// What is this near at rest, or this little outside in barycentric coordinates, is no
 /// pair: a seam would push itself open.
 const REST_CLEARANCE_M: f64 = 2.0 * SEPARATION_M;
@@ -62,7 +66,7 @@ pub struct SelfContact {
     triangles: Vec<[u32; 3]>,
     /// For each triangle, ascending, the vertices that never collide with it.
     exempt: Vec<Vec<u32>>,
-    grid: Grid,
+    near: Near,
     /// Ascending by triangle, then vertex.
     pairs: Vec<Pair>,
     fresh: Vec<Pair>,
@@ -72,33 +76,18 @@ pub struct SelfContact {
     up_to: [usize; RINGS + 1],
     /// The last ring whose pairs may touch by now.
     awake: usize,
-    /// Where the vertices were when the pairs were found, in the frame; empty before the
-    /// first time.
-    found_at: Vec<Point3<f64>>,
+    /// Where the vertices were when the pairs were found.
+    found_at: Snapshot,
     tangle: Tangle,
     /// For each vertex whether it is about a tangle.
     tangled: Vec<bool>,
-}
-
-/// Where a vertex is above a triangle.
-struct Above {
-    weights: [f64; 3],
-    normal: Vector3<f64>,
-    height: f64,
-}
-
-impl Above {
-    /// Whether the foot is inside the triangle, or outside by no more than `overlap`.
-    fn is_over(&self, overlap: f64) -> bool {
-        self.weights.iter().all(|w| *w >= -overlap)
-    }
 }
 
 impl SelfContact {
     /// Contact among the triangles of the rest shape `mesh`.
     pub fn new(mesh: &TriangleMesh) -> Self {
         let mut grid = Grid::default();
-        grid.fill(mesh.vertices(), GRID_CELL_M);
+        grid.fill(mesh.vertices(), REACH_M);
         let exempt = |index: usize| {
             let corners = mesh.corners(index);
             let mut near = mesh.triangles()[index].to_vec();
@@ -120,13 +109,13 @@ impl SelfContact {
         Self {
             triangles: mesh.triangles().to_vec(),
             exempt: (0..mesh.triangles().len()).map(exempt).collect(),
-            grid,
+            near: Near::default(),
             pairs: Vec::new(),
             fresh: Vec::new(),
             order: Vec::new(),
             up_to: [0; RINGS + 1],
             awake: 0,
-            found_at: Vec::new(),
+            found_at: Snapshot::default(),
             tangle: Tangle::new(mesh),
             tangled: Vec::new(),
         }
@@ -143,50 +132,45 @@ impl SelfContact {
         inverse_mass: &[f64],
         h: f64,
     ) {
-        let moved_m = self.moved_m(position, frame);
+        let moved_m = self.found_at.moved_m(position, frame);
         if moved_m > MARGIN_M / 2.0 {
             self.find(position, frame);
         } else {
             self.wake(position, 2.0 * moved_m);
         }
-        if self.tangle.look(&self.triangles, position) {
+        if self.tangle.look(&self.triangles, position, frame) {
             self.set_sides(position);
         }
         self.tangle.undo(&self.triangles, position, inverse_mass);
         self.push(position, velocity, inverse_mass, h);
     }
 
-    /// How far a vertex has moved since the pairs were found, metres, at most. Rigid motion
-    /// of the whole, as `frame` (shell -> world) tells it, does not count.
-    fn moved_m(&self, position: &[Point3<f64>], frame: &Pose) -> f64 {
-        if self.found_at.len() != position.len() {
-            return f64::INFINITY;
-        }
-        let back = inverse(frame);
-        let moved = position.iter().zip(&self.found_at).map(|(now, then)| back(now) - then);
-        moved.map(|m| m.norm_squared()).fold(0.0, f64::max).sqrt()
-    }
-
     fn find(&mut self, position: &[Point3<f64>], frame: &Pose) {
-        self.found_at.clear();
-        self.found_at.extend(position.iter().map(inverse(frame)));
-        self.grid.fill(position, GRID_CELL_M);
+        self.found_at.take(position, frame);
+        self.near.update(&self.triangles, &self.exempt, REACH_M, position, frame);
         self.fresh.clear();
-        let Self { triangles, exempt, grid, pairs, fresh, .. } = self;
+        let Self { triangles, near, pairs, fresh, .. } = self;
         let mut before = pairs.as_slice();
         for (t, triangle) in triangles.iter().enumerate() {
             let corners = triangle.map(|v| position[v as usize]);
             let Some(facet) = Facet::new(&corners) else { continue };
             let passed = before.iter().take_while(|p| (p.triangle as usize) < t).count();
             before = &before[passed..];
-            let first = fresh.len();
-            grid.for_each_around(&corners, REACH_M, |vertex| {
-                let above = facet.above(&position[vertex as usize]);
-                if above.height.abs() > REACH_M || exempt[t].binary_search(&vertex).is_ok() {
-                    return;
+            let [a, b, c] = &corners;
+            let reach = Vector3::repeat(REACH_M);
+            let (low, high) = (a.inf(b).inf(c) - reach, a.sup(b).sup(c) + reach);
+            for vertex in near.of(t) {
+                let point = &position[*vertex as usize];
+                // Without a branch an axis: which of them fails cannot be predicted.
+                if !(0..3).fold(true, |all, k| all & (low[k] <= point[k]) & (point[k] <= high[k])) {
+                    continue;
+                }
+                let above = facet.above(point);
+                if above.height.abs() > REACH_M {
+                    continue;
                 }
                 let mut of_this = before.iter().take_while(|p| p.triangle as usize == t);
-                let known = of_this.find(|p| p.vertex == vertex);
+                let known = of_this.find(|p| p.vertex == *vertex);
                 let side = match known {
                     Some(pair) if above.is_over(OVERLAP) => pair.side,
                     _ => above.height.signum(),
@@ -194,15 +178,10 @@ impl SelfContact {
                 let behind = above.height * side <= 0.0;
                 let slack_m = if behind { 0.0 } else { facet.distance(&above) - NEAR_M };
                 if slack_m < MARGIN_M {
-                    fresh.push(Pair {
-                        triangle: t as u32,
-                        vertex,
-                        side,
-                        ring: Pair::ring(slack_m),
-                    });
+                    let ring = Pair::ring(slack_m);
+                    fresh.push(Pair { triangle: t as u32, vertex: *vertex, side, ring });
                 }
-            });
-            fresh[first..].sort_unstable_by_key(|pair| pair.vertex);
+            }
         }
         std::mem::swap(&mut self.pairs, &mut self.fresh);
         self.sort_into_rings();
@@ -268,7 +247,7 @@ impl SelfContact {
     /// Every edge that now pierces a triangle, counted.
     pub fn crossings(&self, position: &[Point3<f64>]) -> usize {
         let mut tangle = self.tangle.clone();
-        tangle.find(&self.triangles, position);
+        tangle.search(&self.triangles, position, &Pose::identity());
         tangle.piercings().len()
     }
 
@@ -313,61 +292,6 @@ impl SelfContact {
     }
 }
 
-/// World -> frame.
-fn inverse(frame: &Pose) -> impl Fn(&Point3<f64>) -> Point3<f64> {
-    let turn = frame.rotation.inverse().to_rotation_matrix();
-    let shift = turn * -frame.translation.vector;
-    move |p| turn * p + shift
-}
-
-/// A triangle with area.
-struct Facet {
-    origin: Point3<f64>,
-    sides: [Vector3<f64>; 2],
-    /// The normal, as long as twice the area.
-    normal: Vector3<f64>,
-    per_squared: f64,
-    per_length: f64,
-}
-
-impl Facet {
-    #[inline]
-    fn new([a, b, c]: &[Point3<f64>; 3]) -> Option<Self> {
-        let sides = [b - a, c - a];
-        let normal = sides[0].cross(&sides[1]);
-        let squared = normal.norm_squared();
-        (squared > 0.0).then(|| {
-            let per_squared = 1.0 / squared;
-            Self { origin: *a, sides, normal, per_squared, per_length: per_squared.sqrt() }
-        })
-    }
-
-    #[inline]
-    fn above(&self, p: &Point3<f64>) -> Above {
-        let [ab, ac] = &self.sides;
-        let ap = p - self.origin;
-        let v = ap.cross(ac).dot(&self.normal) * self.per_squared;
-        let w = ab.cross(&ap).dot(&self.normal) * self.per_squared;
-        Above {
-            weights: [1.0 - v - w, v, w],
-            normal: self.normal * self.per_length,
-            height: ap.dot(&self.normal) * self.per_length,
-        }
-    }
-
-    /// A distance to the triangle that the true one is not below, metres: the height, or how
-    /// far the foot is beyond the line of a side.
-    fn distance(&self, above: &Above) -> f64 {
-        let [ab, ac] = &self.sides;
-        let opposite = [ac - ab, *ac, *ab];
-        let beyond = opposite.iter().zip(above.weights).map(|(side, weight)| {
-            // The altitude on a side is twice the area over its length.
-            -weight / (self.per_length * side.norm())
-        });
-        beyond.fold(above.height.abs(), f64::max)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -383,13 +307,13 @@ mod tests {
         let mut contact = SelfContact {
             triangles: vec![[0, 1, 2]],
             exempt: vec![vec![0, 1, 2]],
-            grid: Grid::default(),
+            near: Near::default(),
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, ring: 0 }],
             order: vec![0],
             up_to: [1; RINGS + 1],
             awake: 0,
             fresh: Vec::new(),
-            found_at: points.clone(),
+            found_at: Snapshot::default(),
             tangle: Tangle::new(
                 &TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh"),
             ),

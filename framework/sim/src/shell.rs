@@ -10,6 +10,7 @@ mod band;
 pub mod bend;
 pub mod cluster;
 mod colouring;
+mod lanes;
 mod motion;
 mod rotation;
 mod stretch;
@@ -64,12 +65,6 @@ impl Shell {
         let whole = Firmness::Frequency(object.softness_hz());
         let stiffened = [Region::Front, Region::Brim]
             .map(|region| (object.vertices_of(region), firmness(object, region)));
-        let rigid = |some: &[usize]| {
-            let hold = |part: &[usize]| some.iter().all(|v| part.binary_search(v).is_ok());
-            stiffened.iter().any(|(part, firm)| *firm == Firmness::Rigid && hold(part))
-        };
-        let (stretch, bend) =
-            (Stretch::new(mesh, &edges, &rigid), Bend::new(object, &edges, &rigid));
         let stiffened = stiffened.iter().map(|(part, firm)| cluster(part, *firm));
         let clusters = [cluster(&everything, whole)].into_iter().chain(stiffened).flatten();
         let mut shell = Self {
@@ -77,9 +72,9 @@ impl Shell {
             velocity: vec![Vector3::zeros(); position.len()],
             inverse_mass: mass.iter().map(|m| 1.0 / m).collect(),
             bending_damping_s: bend::BENDING_DAMPING_S,
-            stretch,
+            stretch: Stretch::new(mesh, &edges),
             band: Band::new(object, &edges),
-            bend,
+            bend: Bend::new(object, &edges),
             clusters: clusters.collect(),
             rigid_part: vec![None; mass.len()],
             position,

@@ -3,8 +3,8 @@
 use super::exponential::{dot, softmax_inline};
 use super::{cpu_slice, grad_vec, matrix_shape, storage_slice};
 use crate::matmul::{Matrix, MatrixMut, Store, multiply};
-use crate::vectorize::vectorize;
 use candle_core::{CpuStorage, CustomOp1, Layout, Result, Shape, Tensor, bail};
+use seeone_core::vectorize::vectorize;
 use std::sync::{Mutex, PoisonError};
 
 struct Attention {

@@ -2,8 +2,8 @@
 
 use super::exponential::{exp_nonpositive, softmax_inline};
 use super::{cpu_slice, grad_vec, matrix_shape};
-use crate::vectorize::vectorize;
 use candle_core::{CpuStorage, CustomOp1, Layout, Result, Shape, Tensor, bail};
+use seeone_core::vectorize::vectorize;
 use std::sync::{Mutex, PoisonError};
 
 /// Bins of one coordinate over `[0, 1]`.

@@ -1,6 +1,6 @@
 //! An exponential that vectorises, and sums that do.
 
-use crate::vectorize::vectorize;
+use seeone_core::vectorize::vectorize;
 
 /// `e^x` for `x <= 0` to about one part in 10^7; zero-like below -87.
 #[inline(always)]

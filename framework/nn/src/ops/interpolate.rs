@@ -2,8 +2,8 @@
 
 use super::{cpu_slice, grad_vec, matrix_shape};
 use crate::sampling::Interpolation;
-use crate::vectorize::vectorize;
 use candle_core::{CpuStorage, CustomOp1, Layout, Result, Shape, Tensor, bail};
+use seeone_core::vectorize::vectorize;
 
 struct Interpolate {
     table: Interpolation,

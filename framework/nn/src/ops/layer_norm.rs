@@ -2,8 +2,8 @@
 
 use super::exponential::{dot, sum};
 use super::{Activation, cpu_slice, grad_vec, matrix_shape, storage_slice};
-use crate::vectorize::vectorize;
 use candle_core::{CpuStorage, CustomOp3, Layout, Result, Shape, Tensor, bail};
+use seeone_core::vectorize::vectorize;
 
 /// Keeps rows of equal numbers finite.
 const EPSILON: f32 = 1e-5;

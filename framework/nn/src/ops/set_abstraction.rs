@@ -8,8 +8,8 @@
 
 use super::{cpu_slice, grad_vec, matrix_shape, storage_slice};
 use crate::matmul::{Matrix, MatrixMut, Store, multiply};
-use crate::vectorize::vectorize;
 use candle_core::{CpuStorage, CustomOp3, Layout, Result, Shape, Tensor, bail};
+use seeone_core::vectorize::vectorize;
 use std::sync::{Mutex, PoisonError};
 
 /// Centres whose grouped rows fit in the second-level cache together.

@@ -73,7 +73,8 @@ impl Grid {
                 let row = self.index(first[0], y, z)..=self.index(last[0], y, z);
                 let range = self.starts[*row.start()] as usize..self.starts[row.end() + 1] as usize;
                 for (p, index) in &self.sorted[range] {
-                    if (0..3).all(|k| low[k] <= p[k] && p[k] <= high[k]) {
+                    // Without a branch an axis: which of them fails cannot be predicted.
+                    if (0..3).fold(true, |all, k| all & (low[k] <= p[k]) & (p[k] <= high[k])) {
                         visit(*index);
                     }
                 }

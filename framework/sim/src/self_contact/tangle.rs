@@ -5,9 +5,10 @@
 //! whatever brought the tangle about, the line shrinks to nothing.
 
 use super::grid::Grid;
+use super::snapshot::Snapshot;
 use crate::shell::topology::{self, Edge};
 use nalgebra::{Point3, Vector3};
-use seeone_core::TriangleMesh;
+use seeone_core::{Pose, TriangleMesh};
 
 /// How far a pierced pair is moved in a substep, metres.
 const STEP_M: f64 = 3.0e-4;
@@ -17,6 +18,14 @@ const TANGLED_SUBSTEPS: u32 = 4;
 /// Edges longer than this are compared with every triangle, metres: the grid serves the
 /// many short ones.
 const LONG_M: f64 = 0.02;
+/// Edge of a cell of the search grid, metres.
+const CELL_M: f64 = 0.01;
+/// Edges and triangles this near each other are remembered, metres: until one has moved
+/// through half of it no others can pierce.
+const MARGIN_M: f64 = 4.0e-3;
+/// With more than this share of the vertices moved so far, all is remembered anew; with
+/// fewer, what belongs to them is looked up.
+const MOVED_SHARE: f64 = 0.25;
 
 /// An edge that pierces a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,8 +48,15 @@ pub struct Tangle {
     /// Short edges first.
     edges: Vec<Winged>,
     short: usize,
+    /// The edges in the grid, and where their middles are.
+    numbers: Vec<usize>,
     middles: Vec<Point3<f64>>,
     grid: Grid,
+    /// What may pierce before something has moved far since `found_at`.
+    candidates: Vec<Piercing>,
+    found_at: Snapshot,
+    /// For each vertex whether it has moved too far since.
+    moved: Vec<bool>,
     piercings: Vec<Piercing>,
     /// Substeps until the next search.
     wait: u32,
@@ -61,8 +77,12 @@ impl Tangle {
         Self {
             short: short.len(),
             edges: short.into_iter().chain(long).map(winged).collect(),
+            numbers: Vec::new(),
             middles: Vec::new(),
             grid: Grid::default(),
+            candidates: Vec::new(),
+            found_at: Snapshot::default(),
+            moved: Vec::new(),
             piercings: Vec::new(),
             wait: 0,
         }
@@ -81,37 +101,83 @@ impl Tangle {
         })
     }
 
-    /// Looks for tangles when it is time to; whether it did.
-    pub fn look(&mut self, triangles: &[[u32; 3]], position: &[Point3<f64>]) -> bool {
+    /// Looks for tangles when it is time to; whether it did. `frame` (shell -> world) moves
+    /// about as the whole shell does.
+    pub fn look(&mut self, triangles: &[[u32; 3]], position: &[Point3<f64>], frame: &Pose) -> bool {
         if self.wait > 0 {
             self.wait -= 1;
             return false;
         }
-        self.find(triangles, position);
+        self.search(triangles, position, frame);
         self.wait = if self.piercings.is_empty() { CALM_SUBSTEPS } else { TANGLED_SUBSTEPS };
         true
     }
 
     /// Every edge that pierces one of `triangles`, ascending.
-    pub fn find(&mut self, triangles: &[[u32; 3]], position: &[Point3<f64>]) {
-        let Self { edges, short, middles, grid, piercings, .. } = self;
+    pub fn search(&mut self, triangles: &[[u32; 3]], position: &[Point3<f64>], frame: &Pose) {
+        let moved = self.found_at.mark_moved(position, frame, MARGIN_M / 2.0, &mut self.moved);
+        let many = moved as f64 > MOVED_SHARE * position.len() as f64;
+        if many {
+            self.candidates.clear();
+            self.pair(triangles, position, MARGIN_M, |_| true, |_| true);
+            self.found_at.take(position, frame);
+        }
+        let known = self.candidates.len();
+        if moved > 0 && !many {
+            let marks = std::mem::take(&mut self.moved);
+            let any = |vertices: &[u32]| vertices.iter().any(|v| marks[*v as usize]);
+            self.pair(triangles, position, 0.0, any, |_| true);
+            self.pair(triangles, position, 0.0, |corners| !any(corners), any);
+            self.moved = marks;
+        }
+        let Self { edges, candidates, piercings, .. } = self;
+        let pierces = |candidate: &&Piercing| {
+            let ends = edges[candidate.edge as usize].ends.map(|v| position[v as usize]);
+            let corners = triangles[candidate.triangle as usize].map(|v| position[v as usize]);
+            !beyond(&ends, &corners, 0.0) && Hit::of(&ends, &corners).is_some()
+        };
+        piercings.clear();
+        piercings.extend(candidates.iter().filter(pierces));
+        piercings.sort_unstable();
+        piercings.dedup();
+        candidates.truncate(known);
+    }
+
+    /// Adds to the candidates which edges and triangles are within `margin_m` of each other,
+    /// of those whose vertices are wanted.
+    fn pair(
+        &mut self,
+        triangles: &[[u32; 3]],
+        position: &[Point3<f64>],
+        margin_m: f64,
+        of_triangles: impl Fn(&[u32]) -> bool,
+        of_edges: impl Fn(&[u32]) -> bool,
+    ) {
+        let Self { edges, short, numbers, middles, grid, candidates, .. } = self;
+        let wanted = |range: std::ops::Range<usize>| range.filter(|e| of_edges(&edges[*e].ends));
         let ends = |e: usize| edges[e].ends.map(|v| position[v as usize]);
         middles.clear();
-        middles.extend((0..*short).map(ends).map(|[a, b]| nalgebra::center(&a, &b)));
-        grid.fill(middles, LONG_M / 2.0);
-        piercings.clear();
-        for (t, triangle) in triangles.iter().enumerate() {
+        numbers.clear();
+        let mut reach_m = 0.0f64;
+        for e in wanted(0..*short) {
+            let [a, b] = ends(e);
+            middles.push(nalgebra::center(&a, &b));
+            numbers.push(e);
+            reach_m = reach_m.max((b - a).amax() / 2.0 + margin_m);
+        }
+        grid.fill(middles, CELL_M);
+        let long: Vec<usize> = wanted(*short..edges.len()).collect();
+        for (t, triangle) in triangles.iter().enumerate().filter(|(_, t)| of_triangles(&t[..])) {
             let corners = triangle.map(|v| position[v as usize]);
             let mut test = |e: usize| {
                 let apart = edges[e].ends.iter().all(|v| !triangle.contains(v));
-                if apart && pierces(&ends(e), &corners) {
-                    piercings.push(Piercing { triangle: t as u32, edge: e as u32 });
+                if apart && !beyond(&ends(e), &corners, margin_m) {
+                    candidates.push(Piercing { triangle: t as u32, edge: e as u32 });
                 }
             };
-            grid.for_each_around(&corners, LONG_M / 2.0, |e| test(e as usize));
-            (*short..edges.len()).for_each(&mut test);
+            grid.for_each_around(&corners, reach_m, |n| test(numbers[n as usize]));
+            long.iter().for_each(|e| test(*e));
         }
-        piercings.sort_unstable();
     }
 
     /// Moves what is pierced apart. Speed comes of it, and must: without, whatever the shell
@@ -142,14 +208,14 @@ impl Tangle {
     }
 }
 
-/// Whether the segment between `ends` goes through the inside of the triangle `corners`.
-fn pierces(ends: &[Point3<f64>; 2], corners: &[Point3<f64>; 3]) -> bool {
+/// Whether one axis of space shows more than `margin_m` between a segment and a triangle.
+fn beyond(ends: &[Point3<f64>; 2], corners: &[Point3<f64>; 3], margin_m: f64) -> bool {
     let [p, q] = ends;
     let [a, b, c] = corners;
-    let beyond = |k: usize| {
-        p[k].max(q[k]) < a[k].min(b[k]).min(c[k]) || p[k].min(q[k]) > a[k].max(b[k]).max(c[k])
-    };
-    !(0..3).any(beyond) && Hit::of(ends, corners).is_some()
+    (0..3).any(|k| {
+        p[k].max(q[k]) + margin_m < a[k].min(b[k]).min(c[k])
+            || p[k].min(q[k]) - margin_m > a[k].max(b[k]).max(c[k])
+    })
 }
 
 /// Where a segment goes through a triangle.

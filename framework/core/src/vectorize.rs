@@ -19,6 +19,6 @@ impl<R, F: FnMut() -> R> NullaryFnOnce for Loop<F> {
 /// (`pulp` takes closures by `FnOnce`, for which the compiler puts a function in between
 /// that is never inlined; hence the detour.)
 #[inline(always)]
-pub(crate) fn vectorize<R>(f: impl FnMut() -> R) -> R {
+pub fn vectorize<R>(f: impl FnMut() -> R) -> R {
     Arch::new().dispatch(Loop(f))
 }
