@@ -20,8 +20,9 @@ use tangle::Tangle;
 
 /// Smallest distance kept between two layers, metres: two half thicknesses of 1.5 mm.
 const SEPARATION_M: f64 = 3.0e-3;
-/// Largest push in one substep, as a share of the separation: a faster one pops.
-const PUSH_SHARE: f64 = 0.1;
+/// Speed at which layers that are too near move apart, m/s: slower than a body pushes out
+/// what they would be moved into.
+const APART_M_S: f64 = 0.1;
 /// Pairs are found this much beyond the separation, metres.
 const MARGIN_M: f64 = 3.0e-3;
 /// Pairs are found within this distance, metres.
@@ -121,14 +122,15 @@ impl SelfContact {
         }
     }
 
-    /// Keeps the layers apart in a substep of `h` seconds. The pushes conserve momentum.
+    /// Keeps the layers apart in a substep of `h` seconds that began at `previous`. The pushes conserve
+    /// momentum.
     /// `frame` (shell -> world) moves about as the whole does, so that the search for pairs
     /// need not follow.
     pub fn solve(
         &mut self,
         frame: &Pose,
         position: &mut [Point3<f64>],
-        velocity: &[Vector3<f64>],
+        previous: &mut [Point3<f64>],
         inverse_mass: &[f64],
         h: f64,
     ) {
@@ -142,7 +144,7 @@ impl SelfContact {
             self.set_sides(position);
         }
         self.tangle.undo(&self.triangles, position, inverse_mass);
-        self.push(position, velocity, inverse_mass, h);
+        self.push(position, previous, inverse_mass, h);
     }
 
     fn find(&mut self, position: &[Point3<f64>], frame: &Pose) {
@@ -251,10 +253,12 @@ impl SelfContact {
         tangle.piercings().len()
     }
 
+    /// Stops what comes too near, and moves apart what is: the former takes the speed with
+    /// which it came, the latter must not add any, so it moves the substep's start as well.
     fn push(
         &mut self,
         position: &mut [Point3<f64>],
-        velocity: &[Vector3<f64>],
+        previous: &mut [Point3<f64>],
         inverse_mass: &[f64],
         h: f64,
     ) {
@@ -279,14 +283,19 @@ impl SelfContact {
             if inverse <= 0.0 {
                 continue;
             }
+            let moved = |v: usize| position[v] - previous[v];
             let under: Vector3<f64> =
-                ids.iter().zip(above.weights).map(|(v, b)| velocity[*v] * b).sum();
-            let approach = (under - velocity[vertex]).dot(&above.normal) * pair.side * h;
-            let most = approach.max(0.0) + PUSH_SHARE * SEPARATION_M;
-            let push = (SEPARATION_M - gap).min(most) * pair.side / inverse;
-            position[vertex] += above.normal * (push * inverse_mass[vertex]);
-            for (v, b) in ids.into_iter().zip(above.weights) {
-                position[v] -= above.normal * (push * inverse_mass[v] * b);
+                ids.iter().zip(above.weights).map(|(v, b)| moved(*v) * b).sum();
+            let came = (under - moved(vertex)).dot(&above.normal) * pair.side;
+            let missing = SEPARATION_M - gap;
+            let stop = came.clamp(0.0, missing);
+            let apart = (missing - stop).min(APART_M_S * h);
+            let direction = above.normal * (pair.side / inverse);
+            let weights = [(vertex, 1.0)].into_iter();
+            for (v, b) in weights.chain(ids.into_iter().zip(above.weights.map(|b| -b))) {
+                let share = direction * (inverse_mass[v] * b);
+                position[v] += share * (stop + apart);
+                previous[v] += share * apart;
             }
         }
     }
@@ -320,7 +329,10 @@ mod tests {
             tangled: Vec::new(),
         };
         for _ in 0..100 {
-            contact.solve(&Pose::identity(), &mut points, &[Vector3::zeros(); 4], &[1.0; 4], 1e-3);
+            let mut previous = points.clone();
+            contact.solve(&Pose::identity(), &mut points, &mut previous, &[1.0; 4], 1e-3);
+            let gained = previous.iter().zip(&points).map(|(q, p)| (p - q).norm());
+            assert!(gained.fold(0.0, f64::max) < 1e-15, "it gains no speed");
         }
         let corners = [points[0], points[1], points[2]];
         let height = Facet::new(&corners).expect("a triangle").above(&points[3]).height;

@@ -119,8 +119,8 @@ impl World {
         shell.solve(h);
         if settings.self_contact {
             let frame = shell.frame();
-            let Shell { position, velocity, inverse_mass, .. } = shell;
-            self.self_contact.solve(&frame, position, velocity, inverse_mass, h);
+            let Shell { position, previous, inverse_mass, .. } = shell;
+            self.self_contact.solve(&frame, position, previous, inverse_mass, h);
         }
         if let Some(fingers) = fingers {
             self.pads.solve(shell, fingers, surroundings.frictions.pad, h);

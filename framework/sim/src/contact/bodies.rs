@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 /// How far a point may come within a frame beyond what its speed tells, metres: gravity, a
 /// hand that starts and what the shell's own constraints do.
-const MARGIN_M: f64 = 0.01;
+const MARGIN_M: f64 = 0.02;
 
 /// The bodies, and what of the shell each of them may touch within a frame.
 #[derive(Clone, Debug)]
