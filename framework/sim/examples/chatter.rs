@@ -70,18 +70,6 @@ fn main() {
     }
     let still = order.iter().filter(|v| (sum[**v] / 60.0f64).sqrt() < 2e-5).count();
     println!("{still} of {n} still");
-    let vel = w.velocities();
-    let mut by: Vec<usize> = (0..n).collect();
-    by.sort_by(|a, b| vel[*b].norm().total_cmp(&vel[*a].norm()));
-    for v in by.iter().take(8) {
-        println!(
-            "v{v} speed {:.4} {:.4?} {:?} at {:.4?}",
-            vel[*v].norm(),
-            vel[*v].as_slice(),
-            regions(*v),
-            w.vertices()[*v].coords.as_slice()
-        );
-    }
     let v = order[0];
     for t in trace.iter().take(16) {
         println!("{:.5?}", t[v].coords.as_slice());

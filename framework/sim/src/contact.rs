@@ -72,18 +72,7 @@ impl Touch {
     /// `h` seconds, metres.
     #[inline]
     pub fn lift(&self, relative: &Vector3<f64>, h: f64) -> f64 {
-        self.depth.min(self.came(relative) + PUSH_OUT_M_S * h)
-    }
-
-    /// What of the `lift` of a point that moved by `moved` in this substep only mends that it
-    /// was inside before, and must not give it any speed, metres.
-    #[inline]
-    pub fn mended(&self, moved: &Vector3<f64>, lift: f64) -> f64 {
-        (lift - self.came(&(moved - self.carried))).max(0.0)
-    }
-
-    /// How far into the body a point came that moved by `relative` to it, metres.
-    fn came(&self, relative: &Vector3<f64>) -> f64 {
-        (-relative.dot(&self.normal)).max(0.0)
+        let approach = (-relative.dot(&self.normal)).max(0.0);
+        self.depth.min(approach + PUSH_OUT_M_S * h)
     }
 }

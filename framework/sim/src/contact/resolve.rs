@@ -33,12 +33,9 @@ pub fn push_out(
             && let Some(touch) = touch(&shell.position[vertex])
         {
             let moved = shell.position[vertex] - shell.previous[vertex];
-            let (correction, lift) = touch.correction(&moved, friction, h);
-            let mended = touch.normal * touch.mended(&moved, lift);
+            let (correction, _) = touch.correction(&moved, friction, h);
             shell.position[vertex] += correction;
-            shell.previous[vertex] += mended;
-            let impulse = (correction - mended) * (shell.mass[vertex] / h);
-            given.add(&impulse, &shell.position[vertex]);
+            given.add(&(correction * (shell.mass[vertex] / h)), &shell.position[vertex]);
         }
     }
 }
