@@ -1,11 +1,12 @@
 //! Variations of a training frame that a new object or another view might show.
 
 use crate::dataset::AlignedFrame;
-use crate::reshape::Reshape;
 use nalgebra::{Point3, Vector3};
 use rand::RngExt;
 use seeone_core::random::{Generator, uniform};
 
+/// Largest change of the canonical proportions (width and height against length).
+const PROPORTIONS: f64 = 0.04;
 /// Share of samples in which a patch of points is hidden, and its largest radius (m).
 const HIDDEN_SHARE: f64 = 0.3;
 const HIDDEN_RADIUS_M: (f64, f64) = (0.015, 0.05);
@@ -19,27 +20,26 @@ pub struct Sample {
     pub targets: Vec<Vector3<f64>>,
 }
 
-/// `count` points of `frame` in random order, as if another object of the category had
-/// been seen, and now and then with a patch hidden. With fewer points than `count`, points
-/// repeat. `shape` are the object's centred canonical vertices.
+/// `count` points of `frame` in random order: of other proportions, and now and then with a
+/// patch hidden. With fewer points than `count`, points repeat.
 ///
-/// The object's canonical shape changes ([`Reshape`]), and every observed point moves by
-/// what its material point does: how the object lies and is deformed stays.
-pub fn draw(
-    frame: &AlignedFrame,
-    shape: &[Vector3<f64>],
-    count: usize,
-    rng: &mut Generator,
-) -> Sample {
-    let reshape = Reshape::draw(shape, rng);
+/// Proportions change in the canonical frame, where the longest edge (visor to back) keeps
+/// its length, so that the result is a frame of another object of the category.
+pub fn draw(frame: &AlignedFrame, count: usize, rng: &mut Generator) -> Sample {
+    let stretch = Vector3::new(
+        uniform(rng, 1.0 - PROPORTIONS, 1.0 + PROPORTIONS),
+        1.0,
+        uniform(rng, 1.0 - PROPORTIONS, 1.0 + PROPORTIONS),
+    );
     let rows = shuffled_rows(frame, count, rng);
     let back = frame.alignment.inverse();
     let mut sample = Sample::default();
     for row in rows {
+        let canonical = frame.alignment.transform_point(&point(frame, row));
+        let stretched = Point3::from(canonical.coords.component_mul(&stretch));
+        sample.points.push(back.transform_point(&stretched).coords);
         let nocs = Vector3::from(frame.frame.nocs[row].map(f64::from)) - Vector3::repeat(0.5);
-        let shift = back.transform_vector(&reshape.shift(&nocs));
-        sample.points.push(point(frame, row).coords + shift);
-        sample.targets.push(reshape.canonical(&nocs));
+        sample.targets.push(nocs.component_mul(&stretch));
     }
     sample
 }

@@ -30,8 +30,6 @@ pub struct AlignedFrame {
 #[derive(Clone, Debug)]
 pub struct Dataset {
     frames: Vec<AlignedFrame>,
-    /// Centred canonical vertices of each object.
-    shapes: Vec<Vec<Vector3<f64>>>,
     settled: Vec<usize>,
     falling: Vec<usize>,
     held: Vec<usize>,
@@ -65,20 +63,12 @@ impl Dataset {
         };
         let (settled, falling) = (seen(Moment::Resting), seen(Moment::Falling));
         let held = seen(Moment::Held);
-        let centred = |v: &[f64; 3]| Vector3::from(*v).add_scalar(-0.5);
-        let shapes = objects.iter().map(|o| o.vertices.iter().map(centred).collect()).collect();
-        (!settled.is_empty()).then_some(Self { frames, shapes, settled, falling, held })
+        (!settled.is_empty()).then_some(Self { frames, settled, falling, held })
     }
 
     /// All frames.
     pub fn frames(&self) -> &[AlignedFrame] {
         &self.frames
-    }
-
-    /// The centred canonical vertices of the object in `frame`; none when the set does not
-    /// hold it.
-    pub fn shape(&self, frame: &AlignedFrame) -> &[Vector3<f64>] {
-        self.shapes.get(frame.frame.info.object).map_or(&[], Vec::as_slice)
     }
 
     /// The number of a random frame of an object on the mat, at rest or falling.

@@ -46,10 +46,9 @@ pub enum Start<'a> {
     Fit(&'a Similarity),
 }
 
-/// A cloud as it lies, for the coarse network. `shape` are the object's centred canonical
-/// vertices.
-pub fn coarse(frame: &AlignedFrame, shape: &[Vector3<f64>], rng: &mut Generator) -> Example {
-    let sample = draw(frame, shape, Sizes::COARSE.points, rng);
+/// A cloud as it lies, for the coarse network.
+pub fn coarse(frame: &AlignedFrame, rng: &mut Generator) -> Example {
+    let sample = draw(frame, Sizes::COARSE.points, rng);
     let camera = Point3::from(frame.frame.info.camera.xyz_m);
     let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), uniform(rng, -YAW, YAW));
     let to_frame = yaw * camera_frame(&sample.points, &camera);
@@ -65,14 +64,9 @@ pub fn coarse(frame: &AlignedFrame, shape: &[Vector3<f64>], rng: &mut Generator)
     Example { points, targets: sample.targets[..queries].iter().map(fold).collect() }
 }
 
-/// A cloud in a nearly right pose, for the refiner. `shape` as for [`coarse`].
-pub fn refiner(
-    frame: &AlignedFrame,
-    shape: &[Vector3<f64>],
-    start: Start<'_>,
-    rng: &mut Generator,
-) -> Example {
-    let sample = draw(frame, shape, Sizes::REFINER.points, rng);
+/// A cloud in a nearly right pose, for the refiner.
+pub fn refiner(frame: &AlignedFrame, start: Start<'_>, rng: &mut Generator) -> Example {
+    let sample = draw(frame, Sizes::REFINER.points, rng);
     let pose = match start {
         Start::Random => disturbed(&frame.alignment, &sample, random_turn(rng), START_SHIFT, rng),
         Start::Fit(fit) => disturbed(fit, &sample, FIT_TURN * normal(rng).abs(), FIT_SHIFT, rng),

@@ -19,7 +19,6 @@ pub mod inference;
 pub mod network;
 pub mod plugin;
 pub mod readout;
-pub mod reshape;
 pub mod round;
 pub mod training;
 pub mod units;

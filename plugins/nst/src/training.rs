@@ -111,10 +111,7 @@ pub fn train(plan: &TrainPlan, progress: Told<'_>) -> Result<Report, NstTrainErr
     let (set, index) = Dataset::read(&plan.data)?;
 
     let coarse = Network::new(Sizes::COARSE, plan.seed)?;
-    let draw = |rng: &mut Generator| {
-        let frame = &set.frames()[set.draw_on_mat(rng)];
-        examples::coarse(frame, set.shape(frame), rng)
-    };
+    let draw = |rng: &mut Generator| examples::coarse(&set.frames()[set.draw_on_mat(rng)], rng);
     let data = format!("data seed {}", index.seed);
     if run(&coarse, plan, Which::Coarse, &data, &draw, progress)? == Ending::Interrupted {
         return Ok(Report::Interrupted);
@@ -130,8 +127,7 @@ pub fn train(plan: &TrainPlan, progress: Told<'_>) -> Result<Report, NstTrainErr
             Some(fit) if uniform(rng, 0.0, 1.0) < 0.5 => Start::Fit(fit),
             _ => Start::Random,
         };
-        let frame = &set.frames()[number];
-        examples::refiner(frame, set.shape(frame), start, rng)
+        examples::refiner(&set.frames()[number], start, rng)
     };
     let data = format!("{data}, starts from {}", coarse_entry.blake3);
     if run(&refiner, plan, Which::Refiner, &data, &draw, progress)? == Ending::Interrupted {
