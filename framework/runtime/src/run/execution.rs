@@ -6,6 +6,7 @@
 //! on nothing, after which the hand goes back the way it came, to look again.
 
 use super::act::{Acted, Snapshot};
+use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
@@ -18,9 +19,6 @@ use std::collections::VecDeque;
 
 /// Between two snapshots of the object in the recording, seconds.
 const SNAPSHOT_PERIOD_S: f64 = 0.1;
-
-/// From where contact ended a line the whole retreat may be out of reach: so much of it is tried.
-const RETREAT_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.2];
 
 /// How a program ended that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

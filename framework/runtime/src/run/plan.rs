@@ -15,6 +15,8 @@ use seeone_plugin::{KeyPose, MotionOutcome, MotionTask, Program};
 /// The most grasps that are tried: they differ by millimetres, so what is out of reach for
 /// several is for all.
 const MOST_GRASPS: usize = 3;
+/// The whole retreat may be out of reach: so much of it is tried, one after the other.
+pub(super) const RETREAT_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.2];
 
 /// What the robot shall do.
 #[derive(Component, Clone, Debug, PartialEq)]
@@ -42,13 +44,33 @@ pub(super) fn plan(
     }
 }
 
-/// The first grasp that has any way, turned as little as will do, by the cheapest program:
-/// the less the hand is turned, the nearer it takes the object to how it was shown.
+/// A program with as much of the retreats as will do.
 fn planned(
     plugins: &mut Plugins,
     assignment: &Assignment,
     transferred: &Transferred,
 ) -> Result<Planned, String> {
+    let mut refused = String::new();
+    for share in RETREAT_SHARES {
+        match with_retreats(plugins, assignment, transferred, share)? {
+            Ok(planned) => return Ok(planned),
+            // What stands in the way of the whole retreats says most.
+            Err(reason) if refused.is_empty() => refused = reason,
+            Err(_) => {}
+        }
+    }
+    Err(refused)
+}
+
+/// The first grasp that has any way, turned as little as will do, by the cheapest program:
+/// the less the hand is turned, the nearer it takes the object to how it was shown. Of every
+/// retreat it makes `share`. When there is no way: why.
+fn with_retreats(
+    plugins: &mut Plugins,
+    assignment: &Assignment,
+    transferred: &Transferred,
+    share: f64,
+) -> Result<Result<Planned, String>, String> {
     let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
     let obstacles = assignment.scene.obstacles();
     let turns = turns(assignment.skill.stages[0].turn_about_closing_deg);
@@ -61,7 +83,8 @@ fn planned(
             if best.as_ref().is_some_and(|best| turn.about_closing_deg.abs() > shown(best)) {
                 break;
             }
-            let key_poses = key_poses(assignment, transferred, grasp, turn);
+            let mut key_poses = key_poses(assignment, transferred, grasp, turn);
+            key_poses.iter_mut().for_each(|key| key.retreat_m *= share);
             let task = MotionTask {
                 start: &start,
                 holding: false,
@@ -88,12 +111,13 @@ fn planned(
             }
         }
         if let Some(best) = best {
-            return Ok(best);
+            return Ok(Ok(best));
         }
     }
     let tried = grasps.len() * turns.len();
     let nearest = nearest.map_or_else(String::new, |(_, reason)| reason);
-    Err(format!("none of {tried} ways to grasp can be carried out; the nearest fails at {nearest}"))
+    let reason = "ways to grasp can be carried out; the nearest fails at";
+    Ok(Err(format!("none of {tried} {reason} {nearest}")))
 }
 
 /// The skill's key poses for one grasp.

@@ -4,6 +4,8 @@
 //! they need of their vertices is gathered first; loops over lanes then hold arithmetic
 //! alone, for the compiler to vectorise; and what comes of it is handed out again.
 
+#![expect(clippy::needless_range_loop, reason = "a lane is an index into many arrays at once")]
+
 use nalgebra::Vector3;
 use std::array::from_fn;
 

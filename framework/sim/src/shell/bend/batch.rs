@@ -1,5 +1,7 @@
 //! Hinges solved side by side.
 
+#![expect(clippy::needless_range_loop, reason = "a lane is an index into many arrays at once")]
+
 use super::Hinge;
 use super::angle::{Bent, bent, is_small, small_angle};
 use crate::shell::lanes::{self, LANES, Lanes, Vectors, each, from_lane, into_lane};
