@@ -111,7 +111,7 @@ fn a_run_tells_draws_and_records_itself_and_its_seed_repeats_it() {
         assert!(stage["seconds"].as_f64().is_some_and(|s| s >= 0.0), "{stage}");
         assert!(stage["reason"].is_string() || stage["ok"] == true, "{stage}");
     }
-    assert_eq!(once.outcome["tries"], 1);
+    assert!(once.outcome["tries"].as_u64().is_some_and(|n| (1..=3).contains(&n)));
     let release = once.stage("release").expect("the run gets as far as the head");
     assert!(release["reason"].as_str().is_some_and(|why| why.contains("contact")), "{release}");
     for step in ["observe", "perceive", "encode", "transfer", "plan", "act"] {
