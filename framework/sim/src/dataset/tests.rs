@@ -19,7 +19,7 @@ fn plan() -> Plan {
         objects: names.map(|name| cap::named(name).expect("a cap")).to_vec(),
         frames: some(FRAMES),
         views: some(2),
-        seed: 3,
+        seed: 5,
         command: "test".into(),
     }
 }
