@@ -8,7 +8,8 @@ use nalgebra::{Point3, Vector3};
 use seeone_core::random::{Generator, generator, normal, uniform};
 use seeone_nn::ops::{BinTargets, cross_entropy};
 use seeone_nn::sampling::Point;
-use seeone_nst::batch::Batch;
+use seeone_nst::batch::{Batch, View};
+use seeone_nst::stance::{Lens, Stance};
 use seeone_nst::inference::MOST_POINTS;
 use seeone_nst::network::{Network, Sizes};
 use seeone_nst::{Effort, Nst};
@@ -45,24 +46,29 @@ fn training(criterion: &mut Criterion) {
     let sizes = Sizes::REFINER;
     let network = Network::new(sizes, 1).expect("a network");
     let mut rng = generator(2, "clouds");
-    let mut cloud = || -> Vec<Point> {
-        let in_network_units = |p: Point3<f64>| p.coords.map(|v| 10.0 * v as f32).into();
-        dome(sizes.points, &mut rng).into_iter().map(in_network_units).collect()
+    let camera = Point3::new(0.5, -0.2, 0.7);
+    let mut cloud = || -> (Vec<Point>, Stance) {
+        let points: Vec<Vector3<f64>> =
+            dome(sizes.points, &mut rng).into_iter().map(|p| p.coords).collect();
+        let lens = Lens::coarse(&points, &camera);
+        (points.iter().map(|p| lens.see(p)).collect(), lens.stance(&camera))
     };
-    let clouds: Vec<Vec<Point>> = (0..CLOUDS).map(|_| cloud()).collect();
-    let parts: Vec<(&[Point], &[Point])> =
-        clouds.iter().map(|c| (c.as_slice(), &c[..sizes.points / 2])).collect();
+    let clouds: Vec<(Vec<Point>, Stance)> = (0..CLOUDS).map(|_| cloud()).collect();
+    let views: Vec<View<'_>> = clouds
+        .iter()
+        .map(|(c, stance)| View { points: c, queries: &c[..sizes.points / 2], stance: *stance })
+        .collect();
     let queries = CLOUDS * sizes.points / 2;
     let targets = BinTargets {
         values: (0..3 * queries).map(|_| uniform(&mut rng, 0.0, 1.0) as f32).collect(),
         weights: vec![1.0; queries],
         softness: 1.5,
     };
-    let batch = Batch::new(sizes, &parts).expect("a batch");
+    let batch = Batch::new(sizes, &views).expect("a batch");
 
     let mut group = criterion.benchmark_group("refiner, 4 clouds of 1,024 points");
     group.sample_size(20);
-    group.bench_function("neighbourhoods", |b| b.iter(|| Batch::new(sizes, &parts)));
+    group.bench_function("neighbourhoods", |b| b.iter(|| Batch::new(sizes, &views)));
     group.bench_function("forward", |b| b.iter(|| network.forward(&batch).expect("logits")));
     group.bench_function("forward and backward", |b| {
         b.iter(|| {

@@ -184,10 +184,11 @@ fn judge(nst: &Nst, frame: &Frame, known: &Truth<'_>, rng: &mut Generator) -> Op
         confidence: 0.0,
         bins: Default::default(),
     };
+    let camera = Point3::from(frame.info.camera.xyz_m);
     let perceived = if frame.info.moment == Moment::Held {
-        nst.perceive_from(&points, &known_to_the_hand(&truth.alignment, rng))
+        nst.perceive_from(&points, &camera, &known_to_the_hand(&truth.alignment, rng))
     } else {
-        nst.perceive(&points, &Point3::from(frame.info.camera.xyz_m))
+        nst.perceive(&points, &camera)
     };
     let Ok(perceived) = perceived else { return Some(nothing) };
     if known.object.round {

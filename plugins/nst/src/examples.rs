@@ -1,10 +1,11 @@
 //! What the networks are trained on: one example from one frame and one stream of chance.
 
 use crate::augment::{Sample, draw};
-use crate::batch::Batch;
+use crate::batch::{Batch, View};
 use crate::dataset::AlignedFrame;
 use crate::network::Sizes;
-use crate::units::{camera_frame, fold, from_canonical, from_metres, moved};
+use crate::stance::{Lens, Stance};
+use crate::units::fold;
 use candle_core::Result;
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 use seeone_core::Similarity;
@@ -15,7 +16,7 @@ use seeone_nn::sampling::Point;
 /// Noise added to every coordinate (m).
 const JITTER_M: f64 = 0.001;
 /// Largest change of size.
-const COARSE_SCALE: f64 = 0.08;
+const SIZES: f64 = 0.08;
 /// Largest turn away from the camera's azimuth (rad).
 const YAW: f64 = 25.0 * DEGREE;
 /// Deviation of a refiner start's size and place (canonical units).
@@ -33,8 +34,17 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 #[derive(Clone, Debug)]
 pub struct Example {
     points: Vec<Point>,
+    /// How they were seen.
+    stance: Stance,
     /// Coordinates of each query in `[0, 1]`.
     targets: Vec<[f32; 3]>,
+}
+
+impl Example {
+    fn view(&self) -> View<'_> {
+        let queries = &self.points[..self.targets.len()];
+        View { points: &self.points, queries, stance: self.stance }
+    }
 }
 
 /// Where the refiner starts from.
@@ -50,18 +60,14 @@ pub enum Start<'a> {
 pub fn coarse(frame: &AlignedFrame, rng: &mut Generator) -> Example {
     let sample = draw(frame, Sizes::COARSE.points, rng);
     let camera = Point3::from(frame.frame.info.camera.xyz_m);
-    let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), uniform(rng, -YAW, YAW));
-    let to_frame = yaw * camera_frame(&sample.points, &camera);
-    let scale = uniform(rng, 1.0 - COARSE_SCALE, 1.0 + COARSE_SCALE);
-    let side = mirror(rng);
-    let points = sample.points.iter().map(|p| {
-        let mut p = (to_frame * Point3::from(*p)).coords * scale;
-        p.x *= side; // the folded target does not change
-        from_metres(&(p + noise(rng) * JITTER_M))
-    });
-    let points = points.collect();
+    let yaw = uniform(rng, -YAW, YAW);
+    let scale = uniform(rng, 1.0 - SIZES, 1.0 + SIZES);
+    // The folded targets of the mirror image are the same.
+    let lens = Lens::coarse(&sample.points, &camera).turned(yaw, scale).mirrored(mirror(rng));
+    let points = seen(&lens, &sample, rng);
+    let stance = lens.stance(&camera).resized(scale);
     let queries = sample.targets.len() / 2;
-    Example { points, targets: sample.targets[..queries].iter().map(fold).collect() }
+    Example { points, stance, targets: sample.targets[..queries].iter().map(fold).collect() }
 }
 
 /// A cloud in a nearly right pose, for the refiner.
@@ -71,18 +77,17 @@ pub fn refiner(frame: &AlignedFrame, start: Start<'_>, rng: &mut Generator) -> E
         Start::Random => disturbed(&frame.alignment, &sample, random_turn(rng), START_SHIFT, rng),
         Start::Fit(fit) => disturbed(fit, &sample, FIT_TURN * normal(rng).abs(), FIT_SHIFT, rng),
     };
-    let side = mirror(rng);
-    let points = sample.points.iter().map(|p| {
-        let mut p = moved(&pose, &(p + noise(rng) * JITTER_M));
-        p.x *= side;
-        from_canonical(&p)
-    });
-    let points = points.collect();
+    let mirrored = mirror(rng);
+    let side = if mirrored { -1.0 } else { 1.0 };
+    let lens = Lens::refiner(&pose).mirrored(mirrored);
+    let points = seen(&lens, &sample, rng);
+    let camera = Point3::from(frame.frame.info.camera.xyz_m);
+    let stance = lens.stance(&camera).resized(uniform(rng, 1.0 - SIZES, 1.0 + SIZES));
     let queries = sample.targets.len() / 2;
     let targets = sample.targets[..queries]
         .iter()
         .map(|t| [(side * t.x + 0.5) as f32, (t.y + 0.5) as f32, (t.z + 0.5) as f32]);
-    Example { points, targets: targets.collect() }
+    Example { points, stance, targets: targets.collect() }
 }
 
 /// Half of the random starts are near, half anywhere within 60 degrees.
@@ -104,7 +109,7 @@ fn disturbed(
     rng: &mut Generator,
 ) -> Similarity {
     let mean = sample.points.iter().sum::<Vector3<f64>>() / sample.points.len() as f64;
-    let centre = moved(pose, &mean);
+    let centre = pose.transform_point(&Point3::from(mean)).coords;
     let turn = UnitQuaternion::from_scaled_axis(direction(rng) * angle);
     let scale = 1.0 + START_SCALE * (shift / START_SHIFT) * normal(rng).clamp(-3.0, 3.0);
     let about =
@@ -112,8 +117,13 @@ fn disturbed(
     about * Translation3::from(-centre) * pose
 }
 
-fn mirror(rng: &mut Generator) -> f64 {
-    if uniform(rng, 0.0, 1.0) < 0.5 { -1.0 } else { 1.0 }
+/// The sample's points with the camera's noise.
+fn seen(lens: &Lens, sample: &Sample, rng: &mut Generator) -> Vec<Point> {
+    sample.points.iter().map(|p| lens.see(&(p + noise(rng) * JITTER_M))).collect()
+}
+
+fn mirror(rng: &mut Generator) -> bool {
+    uniform(rng, 0.0, 1.0) < 0.5
 }
 
 fn noise(rng: &mut Generator) -> Vector3<f64> {
@@ -125,10 +135,9 @@ fn noise(rng: &mut Generator) -> Vector3<f64> {
 /// # Errors
 /// When an example is of another size.
 pub fn stack(sizes: Sizes, examples: &[Example]) -> Result<(Batch, BinTargets)> {
-    let clouds: Vec<(&[Point], &[Point])> =
-        examples.iter().map(|e| (e.points.as_slice(), &e.points[..e.targets.len()])).collect();
+    let views: Vec<View<'_>> = examples.iter().map(Example::view).collect();
     let values: Vec<f32> =
         examples.iter().flat_map(|e| e.targets.iter().flatten().copied()).collect();
     let weights = vec![1.0; values.len() / 3];
-    Ok((Batch::new(sizes, &clouds)?, BinTargets { values, weights, softness: SOFTNESS }))
+    Ok((Batch::new(sizes, &views)?, BinTargets { values, weights, softness: SOFTNESS }))
 }

@@ -2,11 +2,12 @@
 
 use crate::alignment::{folded, robust};
 use crate::augment::take_shuffled;
-use crate::batch::Batch;
+use crate::batch::{Batch, View};
 use crate::dataset::FEWEST_POINTS;
 use crate::network::{FEATURES, Network, Sizes};
 use crate::readout::{Readout, read};
-use crate::units::{camera_frame, from_canonical, from_metres, moved, unfold};
+use crate::stance::Lens;
+use crate::units::unfold;
 use nalgebra::{Point3, Vector3};
 use seeone_core::random::generator;
 use seeone_core::{Diagnostic, Similarity};
@@ -116,29 +117,32 @@ impl Nst {
         points: &[Point3<f64>],
         camera: &Point3<f64>,
     ) -> Result<Perceived, NstError> {
-        if !camera.coords.iter().all(|v| v.is_finite()) {
-            return Err(NstError::NotFinite);
-        }
-        let points = checked(points)?;
+        let points = checked(points, camera)?;
         let start = coarse_pose(&self.coarse, &points, camera, 0)?.ok_or(NstError::NoPose)?;
-        self.refine(&points, &start)
+        self.refine(&points, camera, &start)
     }
 
     /// Perceives a cloud whose pose is nearly known, such as that of an object held in the
     /// gripper; `start` is `world` -> centred canonical coordinates, right within about 40
-    /// degrees. Gravity plays no part.
+    /// degrees.
     ///
     /// # Errors
     /// [`NstError`].
     pub fn perceive_from(
         &self,
         points: &[Point3<f64>],
+        camera: &Point3<f64>,
         start: &Similarity,
     ) -> Result<Perceived, NstError> {
-        self.refine(&checked(points)?, start)
+        self.refine(&checked(points, camera)?, camera, start)
     }
 
-    fn refine(&self, points: &[Vector3<f64>], start: &Similarity) -> Result<Perceived, NstError> {
+    fn refine(
+        &self,
+        points: &[Vector3<f64>],
+        camera: &Point3<f64>,
+        start: &Similarity,
+    ) -> Result<Perceived, NstError> {
         let mut rng = generator(0, "nst refiner points");
         let mut all: Vec<usize> = (0..points.len()).collect();
         let mut rows = take_shuffled(&mut all, points.len().min(MOST_POINTS), &mut rng);
@@ -149,19 +153,21 @@ impl Nst {
         let mut pose = *start;
         let full = self.effort == Effort::Full;
         for _ in 1..if full { PASSES } else { 1 } {
-            let (readout, _) = ask(&self.refiner, &pose, &seen, &seen, false)?;
+            let (readout, _) = self.ask(&Lens::refiner(&pose), camera, &seen, &seen)?;
             pose = fit(&seen, &readout).ok_or(NstError::NoPose)?;
         }
-        let (first, features) = ask(&self.refiner, &pose, &seen, &asked, false)?;
+        let lens = Lens::refiner(&pose);
+        let mirror = lens.mirrored(true);
+        let (first, features) = self.ask(&lens, camera, &seen, &asked)?;
         let mut readouts = vec![first];
         if full {
-            readouts.push(ask(&self.refiner, &pose, &seen, &asked, true)?.0);
+            readouts.push(self.ask(&mirror, camera, &seen, &asked)?.0);
         }
         for _ in 1..if full { LAST_DRAWS } else { 1 } {
             let other = take_shuffled(&mut rows.clone(), Sizes::REFINER.points, &mut rng);
             let seen: Vec<Vector3<f64>> = other.iter().map(|row| points[*row]).collect();
-            for mirrored in [false, true] {
-                readouts.push(ask(&self.refiner, &pose, &seen, &asked, mirrored)?.0);
+            for lens in [&lens, &mirror] {
+                readouts.push(self.ask(lens, camera, &seen, &asked)?.0);
             }
         }
         let readout = Readout::mean(&readouts);
@@ -169,9 +175,35 @@ impl Nst {
         let nocs = readout.values.into_iter().map(Point3::from).collect();
         Ok(Perceived { rows, nocs, confidence: readout.confidence, features, alignment })
     }
+
+    /// One refiner pass: coordinates and features of `asked`, seen through `lens`.
+    fn ask(
+        &self,
+        lens: &Lens,
+        camera: &Point3<f64>,
+        seen: &[Vector3<f64>],
+        asked: &[Vector3<f64>],
+    ) -> candle_core::Result<(Readout, Vec<f32>)> {
+        let see = |points: &[Vector3<f64>]| -> Vec<Point> {
+            points.iter().map(|p| lens.see(p)).collect()
+        };
+        let (points, queries) = (see(seen), see(asked));
+        let view = View { points: &points, queries: &queries, stance: lens.stance(camera) };
+        let output = self.refiner.forward(&Batch::new(self.refiner.sizes(), &[view])?)?;
+        let mut readout = read(&output.logits)?;
+        if lens.is_mirror() {
+            readout.values.iter_mut().for_each(|v| v[0] = 1.0 - v[0]);
+        }
+        let features = output.features.flatten_all()?.to_vec1()?;
+        debug_assert_eq!(features.len(), asked.len() * FEATURES);
+        Ok((readout, features))
+    }
 }
 
-fn checked(points: &[Point3<f64>]) -> Result<Vec<Vector3<f64>>, NstError> {
+fn checked(points: &[Point3<f64>], camera: &Point3<f64>) -> Result<Vec<Vector3<f64>>, NstError> {
+    if !camera.coords.iter().all(|v| v.is_finite()) {
+        return Err(NstError::NotFinite);
+    }
     if points.len() < FEWEST_POINTS {
         return Err(NstError::TooFewPoints(points.len()));
     }
@@ -196,38 +228,13 @@ pub fn coarse_pose(
     let mut all: Vec<usize> = (0..points.len()).collect();
     let rows = take_shuffled(&mut all, Sizes::COARSE.points, &mut rng);
     let seen: Vec<Vector3<f64>> = rows.iter().map(|row| points[*row]).collect();
-    let frame = camera_frame(&seen, camera);
-    let cloud: Vec<Point> =
-        seen.iter().map(|p| from_metres(&(frame * Point3::from(*p)).coords)).collect();
-    let batch = Batch::new(network.sizes(), &[(&cloud, &cloud)])?;
+    let lens = Lens::coarse(&seen, camera);
+    let cloud: Vec<Point> = seen.iter().map(|p| lens.see(p)).collect();
+    let view = View { points: &cloud, queries: &cloud, stance: lens.stance(camera) };
+    let batch = Batch::new(network.sizes(), &[view])?;
     let readout = read(&network.forward(&batch)?.logits)?;
     let to: Vec<Vector3<f64>> = readout.values.iter().map(unfold).collect();
     Ok(folded(&seen, &to, &weights_of(&readout)))
-}
-
-/// One refiner pass: coordinates and features of `asked`, seen in `pose`.
-fn ask(
-    network: &Network,
-    pose: &Similarity,
-    seen: &[Vector3<f64>],
-    asked: &[Vector3<f64>],
-    mirrored: bool,
-) -> candle_core::Result<(Readout, Vec<f32>)> {
-    let place = |points: &[Vector3<f64>]| -> Vec<Point> {
-        let side = if mirrored { -1.0 } else { 1.0 };
-        let place = |p| moved(pose, p).component_mul(&Vector3::new(side, 1.0, 1.0));
-        points.iter().map(|p| from_canonical(&place(p))).collect()
-    };
-    let (cloud, queries) = (place(seen), place(asked));
-    let batch = Batch::new(network.sizes(), &[(&cloud, &queries)])?;
-    let output = network.forward(&batch)?;
-    let mut readout = read(&output.logits)?;
-    if mirrored {
-        readout.values.iter_mut().for_each(|v| v[0] = 1.0 - v[0]);
-    }
-    let features = output.features.flatten_all()?.to_vec1()?;
-    debug_assert_eq!(features.len(), asked.len() * FEATURES);
-    Ok((readout, features))
 }
 
 fn weights_of(readout: &Readout) -> Vec<f64> {

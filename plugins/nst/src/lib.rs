@@ -20,6 +20,7 @@ pub mod network;
 pub mod plugin;
 pub mod readout;
 pub mod round;
+pub mod stance;
 pub mod training;
 pub mod units;
 

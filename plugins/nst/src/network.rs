@@ -2,6 +2,7 @@
 //! query points (0.5 million parameters).
 
 use crate::batch::Batch;
+use crate::stance::PLACE;
 use candle_core::{Result, Tensor};
 use seeone_nn::Parameters;
 use seeone_nn::layers::{FeaturePropagation, Linear, SetAbstraction, Transformer};
@@ -72,12 +73,12 @@ impl Network {
         let p = &mut parameters;
         let fine = SetAbstraction::new(p, "sa1", 3, FINE)?;
         let coarse = SetAbstraction::new(p, "sa2", FINE + 3, FEATURES)?;
-        let position = Linear::new(p, "position", 3, FEATURES, Activation::Identity)?;
+        let position = Linear::new(p, "position", PLACE, FEATURES, Activation::Identity)?;
         let attention = (0..ATTENTION_LAYERS)
             .map(|i| Transformer::new(p, &format!("attention{i}"), FEATURES, HEADS, 2 * FEATURES))
             .collect::<Result<_>>()?;
         let to_centres = FeaturePropagation::new(p, "fp1", FEATURES, FINE + 3, FEATURES)?;
-        let to_queries = FeaturePropagation::new(p, "fp2", FEATURES, 3, FEATURES)?;
+        let to_queries = FeaturePropagation::new(p, "fp2", FEATURES, PLACE, FEATURES)?;
         let hidden = Linear::new(p, "hidden", FEATURES, FEATURES, Activation::Relu)?;
         let head = Linear::new(p, "head", FEATURES, 3 * BINS, Activation::Identity)?;
         Ok(Self {
@@ -114,13 +115,16 @@ impl Network {
         let placed = Tensor::cat(&[&fine, &batch.centres], 1)?;
         let mut tokens =
             (self.coarse.forward(&placed, &batch.tokens, batch.around_tokens.clone())?
-                + self.position.forward(&batch.tokens)?)?;
+                + self.position.forward(&batch.token_places)?)?;
         for layer in &self.attention {
             tokens = layer.forward(&tokens, self.sizes.tokens())?;
         }
         let centres = self.to_centres.forward(&tokens, &placed, batch.tokens_to_centres.clone())?;
-        let features =
-            self.to_queries.forward(&centres, &batch.queries, batch.centres_to_queries.clone())?;
+        let features = self.to_queries.forward(
+            &centres,
+            &batch.query_places,
+            batch.centres_to_queries.clone(),
+        )?;
         let logits = self.head.forward(&self.hidden.forward(&features)?)?;
         Ok(Output { features, logits })
     }

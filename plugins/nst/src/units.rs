@@ -1,8 +1,7 @@
 //! The frames and units in which the networks see clouds.
 
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
-use seeone_core::{Pose, Similarity};
-use seeone_nn::sampling::Point;
+use seeone_core::Pose;
 
 /// Network units in a metre.
 pub const PER_METRE: f64 = 10.0;
@@ -21,16 +20,6 @@ pub fn camera_frame(points: &[Vector3<f64>], camera: &Point3<f64>) -> Pose {
     rotation * Translation3::new(-centroid.x, -centroid.y, 0.0)
 }
 
-/// A point in metres as the network takes it.
-pub fn from_metres(p: &Vector3<f64>) -> Point {
-    std::array::from_fn(|i| (p[i] * PER_METRE) as f32)
-}
-
-/// A centred canonical point as the network takes it.
-pub fn from_canonical(p: &Vector3<f64>) -> Point {
-    std::array::from_fn(|i| (p[i] * PER_CANONICAL) as f32)
-}
-
 /// Centred canonical coordinates as the coarse network tells them: `2 |x|`, `y + 0.5`,
 /// `z + 0.5`, all in `[0, 1]`.
 pub fn fold(p: &Vector3<f64>) -> [f32; 3] {
@@ -40,11 +29,6 @@ pub fn fold(p: &Vector3<f64>) -> [f32; 3] {
 /// The inverse of [`fold`], up to the side: `[|x|, y, z]`.
 pub fn unfold(values: &[f64; 3]) -> Vector3<f64> {
     Vector3::new(0.5 * values[0], values[1] - 0.5, values[2] - 0.5)
-}
-
-/// `pose` applied to a point.
-pub fn moved(pose: &Similarity, p: &Vector3<f64>) -> Vector3<f64> {
-    pose.transform_point(&Point3::from(*p)).coords
 }
 
 #[cfg(test)]

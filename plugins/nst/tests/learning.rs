@@ -63,7 +63,7 @@ fn learns_what_it_sees_and_answers_for_any_cloud() {
         assert!(seen.confidence.iter().flatten().all(|c| (0.0..=1.0).contains(c)));
         let again = nst.perceive(cloud, &camera).expect("perceived");
         assert_eq!(seen.nocs, again.nocs, "same cloud, same answer");
-        let held = nst.perceive_from(cloud, &seen.alignment).expect("perceived");
+        let held = nst.perceive_from(cloud, &camera, &seen.alignment).expect("perceived");
         assert_eq!(held.rows, seen.rows);
     }
     assert!(matches!(nst.perceive(&points[..9], &camera), Err(NstError::TooFewPoints(9))));
