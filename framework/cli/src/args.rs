@@ -114,6 +114,8 @@ pub enum EvalArgs {
 pub enum EvalPart {
     /// Canonical coordinates told by the perception, against the truth of a set of frames.
     Perception(EvalPerceptionArgs),
+    /// The canonical shape that the encoding knows, as a surface, against the truth.
+    Reconstruction(EvalReconstructionArgs),
 }
 
 // By hand, because a derived one wants the skill's arguments beside the subcommand's.
@@ -164,6 +166,29 @@ pub struct EvalPerceptionArgs {
     /// Write the figures into the weights' card, under the name of the set.
     #[arg(long, conflicts_with = "one_pass")]
     pub record: bool,
+    /// Print the figures as JSON on standard output.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `eval reconstruction`.
+#[derive(Clone, Debug, Args)]
+pub struct EvalReconstructionArgs {
+    /// A set of objects whose frames lie in `data/SET`.
+    #[arg(long, value_name = "SET", default_value = "unseen")]
+    pub objects: String,
+    /// The frames, if they lie elsewhere.
+    #[arg(long, value_name = "FOLDER")]
+    pub data: Option<PathBuf>,
+    /// So many of the frames that show an object at rest, evenly spread.
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = value_parser!(u64).range(1..))]
+    pub frames: u64,
+    /// The perception's weights.
+    #[arg(long, value_name = "FOLDER", default_value = "plugins/nst/weights")]
+    pub perception: PathBuf,
+    /// The encoding's weights.
+    #[arg(long, value_name = "FOLDER", default_value = "plugins/nse/weights")]
+    pub encoding: PathBuf,
     /// Print the figures as JSON on standard output.
     #[arg(long)]
     pub json: bool,

@@ -56,6 +56,9 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Run(args) => verbs::run::run(args),
         Verb::Eval(EvalArgs::Skill(args)) => verbs::eval::run(args),
         Verb::Eval(EvalArgs::Part(EvalPart::Perception(args))) => verbs::perception::run(args),
+        Verb::Eval(EvalArgs::Part(EvalPart::Reconstruction(args))) => {
+            verbs::reconstruction::run(args)
+        }
         Verb::Teach(args) => verbs::teach::run(args),
         Verb::Objects { action: ObjectsAction::List { json } } => verbs::objects::list(*json),
         Verb::Objects { action: ObjectsAction::Import(args) } => verbs::objects::import(args),

@@ -14,7 +14,9 @@ mod nearest_feature;
 mod network;
 mod perceived;
 mod plugin;
+pub mod reconstruction;
 mod supervision;
+mod surface;
 mod training;
 
 #[cfg(test)]

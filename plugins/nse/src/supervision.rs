@@ -1,5 +1,6 @@
 //! What the network is taught: winding numbers of the canonical meshes at query points.
 
+use crate::surface::{SurfaceSampler, triangles};
 use nalgebra::{Point3, Vector3};
 use seeone_core::TriangleMesh;
 use seeone_core::random::{generator, normal, uniform};
@@ -22,14 +23,15 @@ impl Supervision {
     /// `count` queries for a canonical mesh; `stream` keeps the draws of objects apart.
     pub fn new(mesh: &TriangleMesh, count: usize, seed: u64, stream: &str) -> Self {
         let mut rng = generator(seed, stream);
-        let surface = SurfaceSampler::new(mesh);
+        let surface = SurfaceSampler::new(triangles(mesh));
         let points: Vec<Point3<f64>> = (0..count)
             .map(|i| {
-                if i % 2 == 0 {
-                    Point3::from(Vector3::from_fn(|_, _| uniform(&mut rng, 0.0, 1.0)))
-                } else {
-                    let offset = Vector3::from_fn(|_, _| SURFACE_SPREAD * normal(&mut rng));
-                    surface.sample(&mut rng) + offset
+                match &surface {
+                    Some(surface) if i % 2 == 1 => {
+                        let offset = Vector3::from_fn(|_, _| SURFACE_SPREAD * normal(&mut rng));
+                        surface.sample(&mut rng) + offset
+                    }
+                    _ => Point3::from(Vector3::from_fn(|_, _| uniform(&mut rng, 0.0, 1.0))),
                 }
             })
             .collect();
@@ -37,36 +39,6 @@ impl Supervision {
         let winding = points.iter().map(|p| exact.at(p) as f32).collect();
         let queries = points.iter().map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
         Self { queries, winding }
-    }
-}
-
-/// Draws points uniformly by area.
-struct SurfaceSampler<'a> {
-    mesh: &'a TriangleMesh,
-    /// Area of the triangles up to and including each.
-    cumulative: Vec<f64>,
-}
-
-impl<'a> SurfaceSampler<'a> {
-    fn new(mesh: &'a TriangleMesh) -> Self {
-        let cumulative = (0..mesh.triangles().len())
-            .scan(0.0, |sum, i| {
-                let [a, b, c] = mesh.corners(i);
-                *sum += 0.5 * (b - a).cross(&(c - a)).norm();
-                Some(*sum)
-            })
-            .collect();
-        Self { mesh, cumulative }
-    }
-
-    fn sample(&self, rng: &mut impl rand::Rng) -> Point3<f64> {
-        let total = self.cumulative.last().copied().unwrap_or(0.0);
-        let at = uniform(rng, 0.0, total);
-        let index = self.cumulative.partition_point(|area| *area < at);
-        let [a, b, c] = self.mesh.corners(index.min(self.cumulative.len() - 1));
-        // The square root makes the density uniform over the triangle.
-        let (u, v) = (uniform(rng, 0.0, 1.0).sqrt(), uniform(rng, 0.0, 1.0));
-        a + (b - a) * (u * (1.0 - v)) + (c - a) * (u * v)
     }
 }
 

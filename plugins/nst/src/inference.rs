@@ -19,7 +19,7 @@ use std::path::Path;
 const PASSES: usize = 3;
 /// Draws of points that the last pass is averaged over, each with its mirror image:
 /// measured, the second is worth two points of Acc_nocs at 0.04 d.
-const LAST_DRAWS: usize = 2;
+const LAST_DRAWS: usize = 4;
 /// Most points that are answered for.
 pub const MOST_POINTS: usize = 2048;
 /// File names of the two networks' weights.

@@ -6,6 +6,7 @@ pub mod eval;
 pub mod objects;
 pub mod perception;
 pub mod plugins;
+pub mod reconstruction;
 pub mod run;
 pub mod sheet;
 pub mod teach;

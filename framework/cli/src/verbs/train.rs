@@ -168,7 +168,7 @@ fn train_nse(
 }
 
 /// A frame of the set as a camera would have shown it.
-fn observation(frame: &Frame) -> Observation {
+pub(super) fn observation(frame: &Frame) -> Observation {
     let points = frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
     Observation {
         depth: None,
