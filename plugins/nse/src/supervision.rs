@@ -25,14 +25,12 @@ impl Supervision {
         let mut rng = generator(seed, stream);
         let surface = SurfaceSampler::new(triangles(mesh));
         let points: Vec<Point3<f64>> = (0..count)
-            .map(|i| {
-                match &surface {
-                    Some(surface) if i % 2 == 1 => {
-                        let offset = Vector3::from_fn(|_, _| SURFACE_SPREAD * normal(&mut rng));
-                        surface.sample(&mut rng) + offset
-                    }
-                    _ => Point3::from(Vector3::from_fn(|_, _| uniform(&mut rng, 0.0, 1.0))),
+            .map(|i| match &surface {
+                Some(surface) if i % 2 == 1 => {
+                    let offset = Vector3::from_fn(|_, _| SURFACE_SPREAD * normal(&mut rng));
+                    surface.sample(&mut rng) + offset
                 }
+                _ => Point3::from(Vector3::from_fn(|_, _| uniform(&mut rng, 0.0, 1.0))),
             })
             .collect();
         let exact = Exact::new(mesh);

@@ -9,9 +9,9 @@ use seeone_core::random::{Generator, generator, normal, uniform};
 use seeone_nn::ops::{BinTargets, cross_entropy};
 use seeone_nn::sampling::Point;
 use seeone_nst::batch::{Batch, View};
-use seeone_nst::stance::{Lens, Stance};
 use seeone_nst::inference::MOST_POINTS;
 use seeone_nst::network::{Network, Sizes};
+use seeone_nst::stance::{Lens, Stance};
 use seeone_nst::{Effort, Nst};
 use std::path::Path;
 
@@ -66,7 +66,7 @@ fn training(criterion: &mut Criterion) {
     };
     let batch = Batch::new(sizes, &views).expect("a batch");
 
-    let mut group = criterion.benchmark_group("refiner, 4 clouds of 1,024 points");
+    let mut group = criterion.benchmark_group("refiner, 4 clouds of 512 points");
     group.sample_size(20);
     group.bench_function("neighbourhoods", |b| b.iter(|| Batch::new(sizes, &views)));
     group.bench_function("forward", |b| b.iter(|| network.forward(&batch).expect("logits")));

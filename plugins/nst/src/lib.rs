@@ -4,7 +4,8 @@
 //! up, turned to the camera's azimuth) and tells `|x|`, `y` and `z`: left and right of a
 //! mirror-symmetric object cannot be told apart before its pose is known. A robust fit of
 //! those makes a pose, with `x = y x z`; the *refiner* sees the cloud in that pose and
-//! tells all three coordinates, in three passes.
+//! tells all three coordinates, in three passes. Beside the points both are told how the cloud
+//! was seen ([`stance`]).
 //!
 //! Left out of the paper's method: the contrastive loss (Eq. 2). Measured, it slowed
 //! learning at the number of samples that a small machine affords.

@@ -7,7 +7,7 @@ use anyhow::{Result, anyhow};
 use seeone_core::frames::Frame;
 use seeone_nse::Nse;
 use seeone_nse::reconstruction::{
-    CHAMFER_POINTS, Distances, LEAST_SLOPE, MOVER_POINTS, SIDE, evaluate,
+    CHAMFER_POINTS, Distances, LEAST_SLOPE, LEVEL, MOVER_POINTS, SIDE, evaluate,
 };
 use seeone_nst::NstPerception;
 use std::ops::ControlFlow;
@@ -43,8 +43,8 @@ pub fn run(args: &EvalReconstructionArgs) -> Result<Ending> {
     }
     console::answer(&format!(
         "\n{} frames at rest, {} without a surface; unit: the canonical cube's edge. Winding \
-         number 1/2 on {SIDE}^3 nodes where its slope is {LEAST_SLOPE} or more; {CHAMFER_POINTS} \
-         and {MOVER_POINTS} points by area.",
+         number {LEVEL} on {SIDE}^3 nodes where its slope is {LEAST_SLOPE} or more; \
+         {CHAMFER_POINTS} points by area, the {MOVER_POINTS} farthest of them.",
         figures.frames, figures.without_surface
     ))?;
     Ok(Ending::Success)

@@ -29,9 +29,8 @@ impl Chamfer {
 
 /// Squared distance of each of `from` to the nearest of `to`.
 fn nearest_squared(from: &[Point3<f64>], to: &[Point3<f64>]) -> Vec<f64> {
-    let nearest = |p: &Point3<f64>| {
-        to.iter().map(|q| (p - q).norm_squared()).fold(f64::INFINITY, f64::min)
-    };
+    let nearest =
+        |p: &Point3<f64>| to.iter().map(|q| (p - q).norm_squared()).fold(f64::INFINITY, f64::min);
     from.iter().map(nearest).collect()
 }
 

@@ -83,7 +83,8 @@ impl Grid {
 /// Where a tetrahedron of corners and values is zero.
 fn cut(corners: [(Point3<f64>, f64); 4], found: &mut Vec<Triangle>) {
     let (inside, outside): (Vec<_>, Vec<_>) = corners.into_iter().partition(|(_, v)| *v >= 0.0);
-    let between = |a: &(Point3<f64>, f64), b: &(Point3<f64>, f64)| a.0 + (b.0 - a.0) * (a.1 / (a.1 - b.1));
+    let between =
+        |a: &(Point3<f64>, f64), b: &(Point3<f64>, f64)| a.0 + (b.0 - a.0) * (a.1 / (a.1 - b.1));
     match (inside.as_slice(), outside.as_slice()) {
         ([one], [a, b, c]) | ([a, b, c], [one]) => {
             found.push([between(one, a), between(one, b), between(one, c)]);
