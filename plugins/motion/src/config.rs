@@ -1,5 +1,6 @@
 //! The planners' table in a configuration.
 
+use seeone_collision::Margins;
 use seeone_plugin::PluginError;
 use serde::Deserialize;
 
@@ -69,6 +70,11 @@ impl Default for MotionConfig {
 }
 
 impl MotionConfig {
+    /// The distances that are kept.
+    pub(crate) fn margins(&self) -> Margins {
+        Margins { clearance_m: self.clearance_m, held_ahead_m: self.held_ahead_m }
+    }
+
     /// # Errors
     /// [`PluginError::Configuration`] for a number without meaning.
     pub(crate) fn checked(self) -> Result<Self, PluginError> {

@@ -7,9 +7,7 @@
 //! refuses.
 
 mod candidates;
-mod checker;
 mod config;
-mod convex;
 mod failure;
 mod hand;
 mod line;

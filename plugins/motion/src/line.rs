@@ -37,7 +37,7 @@ pub(crate) fn follow(
             || format!("{:.0} of {:.0} mm along the line", 1e3 * share * length, 1e3 * length);
         let pose = between(&from, target, share);
         let near = continued(robot, &path);
-        let query = IkQuery { target: &pose, near: &near, continuous: true };
+        let query = IkQuery::continuous(&pose, &near);
         let found = kinematics.solve(robot, &query)?;
         if found.status != IkStatus::Solved {
             let why = found.reason.unwrap_or_else(|| "no posture".into());

@@ -1,12 +1,13 @@
 //! Free-space moves between two postures.
 
 use crate::MotionConfig;
-use crate::checker::{Checker, Contact, Rules};
 use crate::failure::Failure;
 use crate::rrt::{Search, distance};
 use rand::RngExt;
+use seeone_collision::{Checker, Rules};
 use seeone_core::random::Generator;
 use seeone_core::robot::RobotModel;
+use seeone_plugin::Contact;
 
 /// How far beyond its two ends a planned transit may move a joint, radians.
 const DETOUR_RAD: f64 = 1.6;
@@ -39,7 +40,7 @@ pub(crate) fn transit(
     let rules = Rules { fingers_may_touch: false, held_radius_m };
     let blocked = |a: &[f64], b: &[f64]| first_contact(config, checker, &rules, a, b);
     for (end, name) in [(start, "start"), (goal, "end")] {
-        if let Some(contact) = checker.contact(end, &rules) {
+        if let Some(contact) = checker.contact_under(end, &rules) {
             return Err(Failure::Infeasible(format!("at its {name} {contact}")));
         }
     }
@@ -81,7 +82,7 @@ fn first_contact(
     (1..=steps).find_map(|k| {
         let share = k as f64 / steps as f64;
         let q: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
-        checker.contact(&q, rules)
+        checker.contact_under(&q, rules)
     })
 }
 

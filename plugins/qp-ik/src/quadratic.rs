@@ -3,11 +3,12 @@
 use crate::IkConfig;
 use crate::descent::Step;
 use crate::linearised::Linearised;
+use crate::normal::Normal;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT::NonnegativeConeT,
 };
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 /// The objective's scale. The solver stops on an absolute gap of 1e-8; near the answer
 /// the objective itself is smaller than that, and without this factor it says `Solved`
@@ -15,89 +16,112 @@ use nalgebra::{DMatrix, DVector};
 const SCALE: f64 = 1e6;
 
 /// Steps that minimise `|J dq - e|^2 + damping |dq|^2 + posture |dq - to_posture|^2`
-/// within the joint and step limits, by an interior-point method (clarabel).
+/// within the limits of joints, steps and distances. Where no limit is in the way that is the
+/// answer of the normal equations; where one is, an interior-point method finds it (clarabel),
+/// whose data are replaced for each step and whose memory is not.
 pub(crate) struct QuadraticProgram {
-    damping: f64,
-    posture: f64,
+    normal: Normal,
+    interior: InteriorPoint,
+}
+
+/// The solver and the data that it is given, in its own order: of the Hessian the upper
+/// triangle column by column, of the constraints for each column its upper bound, its lower
+/// bound and its part in each pair.
+struct InteriorPoint {
+    solver: DefaultSolver<f64>,
+    hessian: Vec<f64>,
+    gradient: Vec<f64>,
+    constraints: Vec<f64>,
+    bounds: Vec<f64>,
 }
 
 impl Step for QuadraticProgram {
-    fn new(config: &IkConfig) -> Self {
-        Self { damping: config.damping, posture: config.posture }
+    fn new(config: &IkConfig, joints: usize, pairs: usize) -> Self {
+        Self { normal: Normal::new(config, joints), interior: InteriorPoint::new(joints, pairs) }
     }
 
-    fn step(&self, problem: &Linearised) -> Option<DVector<f64>> {
-        let joints = problem.jacobian.ncols();
-        let transposed = problem.jacobian.transpose();
-        // Damping that grows with the error keeps far targets from throwing the arm about
-        // (Sugihara 2011).
-        let damping = self.damping + 1e-3 * problem.error.norm_squared();
-        let mut hessian = DMatrix::identity(joints, joints) * (damping + self.posture);
-        hessian += &transposed * &problem.jacobian;
-        let gradient = -(transposed * problem.error) - &problem.to_posture * self.posture;
-        let bounds: Vec<f64> =
-            problem.upper.iter().copied().chain(problem.lower.iter().map(|v| -v)).collect();
-        let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
-        let mut solver = DefaultSolver::new(
-            &upper_triangle(&(hessian * SCALE)),
-            (gradient * SCALE).as_slice(),
-            &box_rows(joints),
-            &bounds,
-            &[NonnegativeConeT(2 * joints)],
-            settings,
-        )
-        .ok()?;
-        solver.solve();
-        let solved =
-            matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved);
-        let step = DVector::from_column_slice(&solver.solution.x);
-        (solved && step.iter().all(|v| v.is_finite())).then_some(step)
+    fn step(&mut self, problem: &Linearised, step: &mut DVector<f64>) -> bool {
+        self.normal.set(problem);
+        (self.normal.solve(step) && problem.allows(step))
+            || self.interior.solve(&self.normal, problem, step)
     }
 }
 
-/// The upper triangle of a symmetric matrix, column by column.
-fn upper_triangle(matrix: &DMatrix<f64>) -> CscMatrix<f64> {
-    let n = matrix.ncols();
+impl InteriorPoint {
+    fn new(joints: usize, pairs: usize) -> Self {
+        let rows = 2 * joints + pairs;
+        let (hessian, gradient) = (upper_triangle(joints), vec![0.0; joints]);
+        let constraints = constraint_rows(joints, pairs);
+        let bounds = vec![1.0; rows];
+        let settings = DefaultSettings {
+            verbose: false,
+            // Data can be replaced only in a problem that nobody has reduced, and equilibration
+            // would carry the scales of the first problem into all later ones, so that an
+            // answer depended on the questions before it.
+            presolve_enable: false,
+            input_sparse_dropzeros: false,
+            equilibrate_enable: false,
+            ..DefaultSettings::default()
+        };
+        let solver = DefaultSolver::new(
+            &hessian,
+            &gradient,
+            &constraints,
+            &bounds,
+            &[NonnegativeConeT(rows)],
+            settings,
+        )
+        .expect("the sizes fit each other");
+        Self { solver, hessian: hessian.nzval, gradient, constraints: constraints.nzval, bounds }
+    }
+
+    /// Solves `normal` within the problem's limits and says whether it did.
+    fn solve(&mut self, normal: &Normal, problem: &Linearised, step: &mut DVector<f64>) -> bool {
+        let (joints, pairs) = (step.len(), problem.room.len());
+        let mut entry = 0;
+        for column in 0..joints {
+            for row in 0..=column {
+                self.hessian[entry] = SCALE * normal.hessian[(row, column)];
+                entry += 1;
+            }
+            self.gradient[column] = -SCALE * normal.pull[column];
+            self.bounds[column] = problem.upper[column];
+            self.bounds[joints + column] = -problem.lower[column];
+            let parts = column * (2 + pairs) + 2;
+            for pair in 0..pairs {
+                self.constraints[parts + pair] = problem.approach[(pair, column)];
+            }
+        }
+        self.bounds[2 * joints..].copy_from_slice(problem.room.as_slice());
+        let data = (&self.hessian, &self.gradient, &self.constraints, &self.bounds);
+        if self.solver.update_data(data.0, data.1, data.2, data.3).is_err() {
+            return false;
+        }
+        self.solver.solve();
+        let solution = &self.solver.solution;
+        step.copy_from_slice(&solution.x);
+        matches!(solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved)
+            && step.iter().all(|v| v.is_finite())
+    }
+}
+
+/// The pattern of the upper triangle of a symmetric matrix, column by column, an identity.
+fn upper_triangle(n: usize) -> CscMatrix<f64> {
     let mut starts = vec![0];
     let (mut rows, mut values) = (Vec::new(), Vec::new());
     for column in 0..n {
         rows.extend(0..=column);
-        values.extend((0..=column).map(|row| matrix[(row, column)]));
+        values.extend((0..=column).map(|row| if row == column { 1.0 } else { 0.0 }));
         starts.push(rows.len());
     }
     CscMatrix::new(n, n, starts, rows, values)
 }
 
-/// The rows of `dq <= upper` and `-dq <= -lower`.
-fn box_rows(n: usize) -> CscMatrix<f64> {
-    let starts = (0..=n).map(|column| 2 * column).collect();
-    let rows = (0..n).flat_map(|column| [column, n + column]).collect();
-    CscMatrix::new(2 * n, n, starts, rows, [1.0, -1.0].repeat(n))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::{Matrix6xX, Vector6};
-
-    fn problem(limit: f64) -> Linearised {
-        Linearised {
-            jacobian: Matrix6xX::from_fn(6, |row, column| f64::from(u8::from(row == column))),
-            error: Vector6::new(0.1, -0.2, 0.0, 0.0, 0.0, 0.05),
-            lower: DVector::repeat(6, -limit),
-            upper: DVector::repeat(6, limit),
-            to_posture: DVector::zeros(6),
-        }
-    }
-
-    #[test]
-    fn the_step_is_exact_inside_and_stays_at_the_limits() {
-        let program = QuadraticProgram { damping: 1e-9, posture: 0.0 };
-        let free = program.step(&problem(1.0)).expect("a step");
-        assert!(
-            (&free - DVector::from_column_slice(&[0.1, -0.2, 0.0, 0.0, 0.0, 0.05])).norm() < 1e-4
-        );
-        let bound = program.step(&problem(0.1)).expect("a step");
-        assert!((bound[1] + 0.1).abs() < 1e-4 && bound.amax() < 0.1 + 1e-6, "{bound}");
-    }
+/// The rows of `dq <= upper`, `-dq <= -lower` and `approach dq <= room`.
+fn constraint_rows(n: usize, pairs: usize) -> CscMatrix<f64> {
+    let starts = (0..=n).map(|column| (2 + pairs) * column).collect();
+    let rows = (0..n).flat_map(|c| [c, n + c].into_iter().chain(2 * n..2 * n + pairs)).collect();
+    let column = [1.0, -1.0].into_iter().chain(std::iter::repeat_n(0.0, pairs));
+    let values = (0..n).flat_map(|_| column.clone()).collect();
+    CscMatrix::new(2 * n + pairs, n, starts, rows, values)
 }

@@ -22,7 +22,7 @@ fn draw(robot: &RobotModel, rng: &mut impl rand::Rng) -> Vec<f64> {
 }
 
 fn solve(solver: &dyn Kinematics, robot: &RobotModel, target: &Pose) -> IkOutcome {
-    solver.solve(robot, &IkQuery { target, near: &HOME, continuous: false }).unwrap()
+    solver.solve(robot, &IkQuery::new(target, &HOME)).unwrap()
 }
 
 fn qp() -> QpIk {
@@ -97,7 +97,7 @@ fn what_is_no_number_or_no_posture_is_refused() {
     let nan = Pose::from_parts(Translation3::new(f64::NAN, 0.0, 0.0), robot.tool().rotation);
     let ok = robot.tool_pose(&HOME);
     for (target, near) in [(&nan, &HOME[..]), (&ok, &HOME[..5]), (&ok, &[f64::NAN; 6])] {
-        let told = qp().solve(&robot, &IkQuery { target, near, continuous: false });
+        let told = qp().solve(&robot, &IkQuery::new(target, near));
         assert!(matches!(told, Err(PluginError::Input(_))));
     }
     let wrong = IkConfig { damping: f64::NAN, ..IkConfig::default() };
@@ -111,7 +111,7 @@ fn a_line_is_followed_on_one_branch() {
     let mut q = HOME.to_vec();
     for step in 1..=60 {
         let target = Translation3::new(0.0, -0.004 * f64::from(step), 0.0) * start;
-        let query = IkQuery { target: &target, near: &q, continuous: true };
+        let query = IkQuery::continuous(&target, &q);
         let outcome = qp().solve(&robot, &query).unwrap();
         assert_eq!(outcome.status, IkStatus::Solved);
         assert!(outcome.position_error_m < 1e-4, "{}", outcome.position_error_m);

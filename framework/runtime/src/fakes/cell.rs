@@ -276,6 +276,7 @@ fn scene(head: Pose) -> Scene {
 
 pub(crate) fn robot_file(urdf: PathBuf) -> RobotFile {
     RobotFile {
+        path: "fake.toml".into(),
         name: "fake".into(),
         plugin: "fake".into(),
         urdf,
