@@ -14,6 +14,7 @@ mod damped;
 mod descent;
 mod linearised;
 mod normal;
+mod program;
 mod quadratic;
 mod reason;
 mod seeds;
@@ -25,4 +26,5 @@ mod tests;
 
 pub use closed_form::ClosedForm;
 pub use config::IkConfig;
+pub use program::{Problem, QuadraticProgram};
 pub use solver::{DampedLeastSquares, QpIk};

@@ -10,6 +10,8 @@ use seeone_plugin::Proximity;
 const RADIAN_M: f64 = 0.25;
 /// Pairs of near bodies that one step knows of, the nearest ones.
 pub(crate) const PAIRS: usize = 12;
+/// What is kept of a pair's margin for the curvature that a linearised step does not see, metres.
+const RESERVE_M: f64 = 0.005;
 /// The bound of a row that has no pair.
 const FREE: f64 = 1.0;
 
@@ -80,7 +82,7 @@ impl Linearised {
         self.room.fill(FREE);
         for (row, near) in at.near.iter().take(self.room.len()).enumerate() {
             // What is too near already may come no nearer.
-            self.room[row] = near.margin_m.max(0.0);
+            self.room[row] = (near.margin_m - RESERVE_M).max(0.0);
             for (carrier, sense) in near.carriers.iter().zip([1.0, -1.0]) {
                 let Some((link, point)) = carrier else { continue };
                 for i in 0..*link {

@@ -2,7 +2,7 @@
 
 use crate::damped::Damped;
 use crate::descent::{Miss, Step, Workspace};
-use crate::quadratic::QuadraticProgram;
+use crate::quadratic::Quadratic;
 use crate::seeds::{Excess, Known};
 use crate::{ClosedForm, IkConfig, reason, seeds};
 use seeone_core::robot::RobotModel;
@@ -10,7 +10,7 @@ use seeone_plugin::{Contact, IkOutcome, IkQuery, IkStatus, Kinematics, PluginErr
 use std::sync::{Mutex, PoisonError};
 
 /// Inverse kinematics by quadratic programs (clarabel).
-pub struct QpIk(Descents<QuadraticProgram>);
+pub struct QpIk(Descents<Quadratic>);
 
 /// Inverse kinematics by damped least squares.
 pub struct DampedLeastSquares(Descents<Damped>);
