@@ -1,6 +1,6 @@
 //! The robot as convex bodies.
 
-use crate::Convex;
+use crate::{Convex, Placed};
 use seeone_core::Pose;
 use seeone_core::robot::{RobotModel, Solid};
 
@@ -24,6 +24,13 @@ pub(crate) struct Body {
     pub(crate) shape: Convex,
     /// In that link.
     pub(crate) pose: Pose,
+}
+
+impl Body {
+    /// The body where the arm's links, posed in `world`, carry it.
+    pub(crate) fn placed(&self, links: &[Pose]) -> Placed<'_> {
+        self.shape.at(links[self.link] * self.pose)
+    }
 }
 
 /// The bodies of a robot with its pads `opening_m` apart.

@@ -2,7 +2,7 @@
 
 use crate::body::{Body, Kind, bodies, pairs};
 use crate::convex::Gap;
-use crate::{Convex, Margins, Rules};
+use crate::{Convex, Margins, Placed, Rules};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
@@ -76,18 +76,19 @@ impl<'a> Checker<'a> {
 
     /// The first pair found that is too near at `q`, if there is one.
     pub fn contact_under(&self, q: &[f64], rules: &Rules) -> Option<Contact> {
-        let poses = self.poses(q);
-        self.with_obstacles(&poses, rules)
+        let placed = self.placed(q);
+        self.with_obstacles(&placed, rules)
             .or_else(|| rules.held_radius_m.and_then(|radius| self.with_held(q, radius)))
-            .or_else(|| self.with_itself(&poses))
+            .or_else(|| self.with_itself(&placed))
     }
 
     /// Distance from what hangs in the hand (its centre) to the nearest obstacle, metres.
     pub fn held_clearance(&self, q: &[f64]) -> f64 {
         let pose = self.robot.tool_pose(q) * self.held_centre;
         let point = Convex::ball(0.0);
+        let centre = point.at(pose);
         let tables = self.tables.iter().map(|(height, _)| pose.translation.z - height);
-        let standing = self.standing.iter().map(|s| point.distance(&pose, &s.shape, &s.pose));
+        let standing = self.standing.iter().map(|standing| centre.distance(&standing.placed()));
         tables.chain(standing).fold(f64::INFINITY, f64::min)
     }
 
@@ -102,32 +103,36 @@ impl<'a> Checker<'a> {
         self.standing.push(Standing { name: name.to_owned(), shape, pose });
     }
 
-    /// Poses of all bodies in `world`.
-    fn poses(&self, q: &[f64]) -> Vec<Pose> {
+    /// All bodies in `world`.
+    fn placed(&self, q: &[f64]) -> Vec<Placed<'_>> {
         let links = self.robot.forward(q);
-        self.bodies.iter().map(|body| links[body.link] * body.pose).collect()
+        self.bodies.iter().map(|body| body.placed(&links)).collect()
     }
 
     /// The bodies that could touch obstacles: the base stands where it stands.
-    fn moving<'b>(&'b self, poses: &'b [Pose]) -> impl Iterator<Item = (&'b Body, &'b Pose)> {
-        self.bodies.iter().zip(poses).filter(|(body, _)| body.link > 0)
+    fn moving<'b>(
+        &'b self,
+        placed: &'b [Placed<'b>],
+    ) -> impl Iterator<Item = (&'b Body, &'b Placed<'b>)> {
+        self.bodies.iter().zip(placed).filter(|(body, _)| body.link > 0)
     }
 
-    fn with_obstacles(&self, poses: &[Pose], rules: &Rules) -> Option<Contact> {
+    fn with_obstacles(&self, placed: &[Placed], rules: &Rules) -> Option<Contact> {
         let wanted_m = self.margins.clearance_m;
-        for (body, pose) in self.moving(poses) {
-            for (height, soft) in &self.tables {
-                let distance_m = body.shape.lowest(pose) - (height - soft);
-                if distance_m < 0.0 {
-                    return Some(contact(&body.name, "table", distance_m, 0.0));
+        for (body, placed) in self.moving(placed) {
+            for floor in self.tables.iter().map(|(height, soft)| height - soft) {
+                if placed.floor() < floor {
+                    let distance_m = placed.lowest().z - floor;
+                    if distance_m < 0.0 {
+                        return Some(contact(&body.name, "table", distance_m, 0.0));
+                    }
                 }
             }
             if rules.fingers_may_touch && body.kind == Kind::Finger {
                 continue;
             }
             for standing in &self.standing {
-                let lack = body.shape.lack(pose, &standing.shape, &standing.pose, wanted_m);
-                if let Some(lack) = lack {
+                if let Some(lack) = placed.lack(&standing.placed(), wanted_m) {
                     return Some(contact(&body.name, &standing.name, wanted_m - lack, wanted_m));
                 }
             }
@@ -140,12 +145,17 @@ impl<'a> Checker<'a> {
         (distance_m < radius).then(|| contact("held", "obstacle", distance_m, radius))
     }
 
-    fn with_itself(&self, poses: &[Pose]) -> Option<Contact> {
+    fn with_itself(&self, placed: &[Placed]) -> Option<Contact> {
         self.pairs.iter().find_map(|&(a, b)| {
-            let (one, other) = (&self.bodies[a], &self.bodies[b]);
-            let lack = one.shape.lack(&poses[a], &other.shape, &poses[b], 0.0)?;
-            Some(contact(&one.name, &other.name, -lack, 0.0))
+            let lack = placed[a].lack(&placed[b], 0.0)?;
+            Some(contact(&self.bodies[a].name, &self.bodies[b].name, -lack, 0.0))
         })
+    }
+}
+
+impl Standing {
+    fn placed(&self) -> Placed<'_> {
+        self.shape.at(self.pose)
     }
 }
 
@@ -156,21 +166,18 @@ impl Clearance for Checker<'_> {
 
     fn proximities(&self, q: &[f64], within_m: f64, found: &mut Vec<Proximity>) {
         found.clear();
-        let poses = self.poses(q);
+        let placed = self.placed(q);
         let wanted_m = self.margins.clearance_m;
         let carried = |body: &Body, gap: &Gap, end: usize| Some((body.link, gap.points[end]));
-        for (body, pose) in self.moving(&poses) {
+        for (body, placed) in self.moving(&placed) {
             for (height, soft) in &self.tables {
-                let margin_m = body.shape.lowest(pose) - (height - soft);
-                if margin_m < within_m {
-                    let carriers = [Some((body.link, body.shape.lowest_point(pose))), None];
-                    found.push(Proximity { margin_m, normal: -Vector3::z_axis(), carriers });
-                }
+                let point = placed.lowest();
+                let margin_m = point.z - (height - soft);
+                let carriers = [Some((body.link, point)), None];
+                found.push(Proximity { margin_m, normal: -Vector3::z_axis(), carriers });
             }
             for standing in &self.standing {
-                let most_m = wanted_m + within_m;
-                let Some(gap) = body.shape.gap(pose, &standing.shape, &standing.pose, most_m)
-                else {
+                let Some(gap) = placed.gap(&standing.placed(), wanted_m + within_m) else {
                     continue;
                 };
                 let margin_m = gap.distance_m - wanted_m;
@@ -179,11 +186,8 @@ impl Clearance for Checker<'_> {
             }
         }
         for &(a, b) in &self.pairs {
-            let (one, other) = (&self.bodies[a], &self.bodies[b]);
-            let Some(gap) = one.shape.gap(&poses[a], &other.shape, &poses[b], within_m) else {
-                continue;
-            };
-            let carriers = [carried(one, &gap, 0), carried(other, &gap, 1)];
+            let Some(gap) = placed[a].gap(&placed[b], within_m) else { continue };
+            let carriers = [carried(&self.bodies[a], &gap, 0), carried(&self.bodies[b], &gap, 1)];
             found.push(Proximity { margin_m: gap.distance_m, normal: gap.normal, carriers });
         }
         found.retain(|near| near.margin_m < within_m);

@@ -1,7 +1,7 @@
 //! Convex bodies and the distances between them.
 
 use crate::segment::Segment;
-use nalgebra::{Isometry3, Point3, Unit, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::query::ClosestPoints;
 use parry3d_f64::query::details::{
@@ -83,95 +83,114 @@ impl Convex {
         (!points.is_empty()).then(|| Self::new(Core::Hull(points), 0.0))
     }
 
-    /// Height of its lowest point along the world's z, at `pose`, metres.
-    pub fn lowest(&self, pose: &Pose) -> f64 {
-        self.lowest_point(pose).z
-    }
-
-    /// Its lowest point along the world's z, at `pose`.
-    pub(crate) fn lowest_point(&self, pose: &Pose) -> Point3<f64> {
-        let down = pose.rotation.inverse_transform_vector(&-Vector3::z());
-        pose * Point3::from(self.core.support(&down)) - Vector3::z() * self.radius
-    }
-
-    /// Distance from another body, both at poses in one frame, metres; negative by the grown
-    /// radii at most when they overlap.
-    pub fn distance(&self, pose: &Pose, other: &Self, other_pose: &Pose) -> f64 {
-        let least = self.least_distance(pose, other, other_pose);
-        if self.is_cover() && other.is_cover() {
-            return least;
-        }
-        let relative = parry_pose(&pose.inv_mul(other_pose));
-        let apart = distance_support_map_support_map(&relative, &self.core, &other.core);
-        apart - self.radius - other.radius
-    }
-
-    /// By how much two bodies are nearer than `wanted_m`; `None` when they are not.
-    pub(crate) fn lack(
-        &self,
-        pose: &Pose,
-        other: &Self,
-        other_pose: &Pose,
-        wanted_m: f64,
-    ) -> Option<f64> {
-        if self.least_distance(pose, other, other_pose) >= wanted_m {
-            return None;
-        }
-        let lack = wanted_m - self.distance(pose, other, other_pose);
-        (lack > 0.0).then_some(lack)
-    }
-
-    /// Where they are nearest, if they are not further apart than `most_m`; both poses are in
-    /// `world`. Of bodies that overlap by more than their grown radii nobody knows where.
-    pub(crate) fn gap(
-        &self,
-        pose: &Pose,
-        other: &Self,
-        other_pose: &Pose,
-        most_m: f64,
-    ) -> Option<Gap> {
-        if self.least_distance(pose, other, other_pose) > most_m {
-            return None;
-        }
-        let (on_core, on_other) = if self.is_cover() && other.is_cover() {
-            self.segment(pose).nearest(&other.segment(other_pose))
-        } else {
-            let relative = parry_pose(&pose.inv_mul(other_pose));
-            let reach = most_m + self.radius + other.radius;
-            match closest_points_support_map_support_map(&relative, &self.core, &other.core, reach)
-            {
-                ClosestPoints::WithinMargin(a, b) => {
-                    let point = |v: Vector| Point3::new(v.x, v.y, v.z);
-                    (pose * point(a), other_pose * point(b))
-                }
-                ClosestPoints::Intersecting | ClosestPoints::Disjoint => return None,
-            }
-        };
-        let (normal, apart) = Unit::try_new_and_get(on_other - on_core, 1e-9)?;
-        Some(Gap {
-            distance_m: apart - self.radius - other.radius,
-            normal,
-            points: [
-                on_core + normal.into_inner() * self.radius,
-                on_other - normal.into_inner() * other.radius,
-            ],
-        })
-    }
-
-    /// At least so far apart are they: the distance of the capsules that cover them.
-    fn least_distance(&self, pose: &Pose, other: &Self, other_pose: &Pose) -> f64 {
-        let (a, b) = self.segment(pose).nearest(&other.segment(other_pose));
-        (a - b).norm() - self.cover_radius - other.cover_radius
+    /// The body at a pose, in the frame in which all others are.
+    pub fn at(&self, pose: Pose) -> Placed<'_> {
+        let half = pose.rotation * Vector3::new(0.0, 0.0, self.cover_half);
+        Placed { shape: self, cover: Segment { middle: pose * self.cover_middle, half }, pose }
     }
 
     /// Whether its cover is itself.
     fn is_cover(&self) -> bool {
         matches!(self.core, Core::Segment(_))
     }
+}
 
-    fn segment(&self, pose: &Isometry3<f64>) -> Segment {
-        let half = pose.rotation * Vector3::new(0.0, 0.0, self.cover_half);
-        Segment { middle: pose * self.cover_middle, half }
+/// A body at its place.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    shape: &'a Convex,
+    pose: Pose,
+    /// The line of the capsule that covers it.
+    cover: Segment,
+}
+
+impl Placed<'_> {
+    /// Its lowest point along the frame's z.
+    pub fn lowest(&self) -> Point3<f64> {
+        let down = self.pose.rotation.inverse_transform_vector(&-Vector3::z());
+        let on_core = self.pose * Point3::from(self.shape.core.support(&down));
+        on_core - Vector3::z() * self.shape.radius
+    }
+
+    /// Height below which none of it is.
+    pub(crate) fn floor(&self) -> f64 {
+        self.cover.middle.z - self.cover.half.z.abs() - self.shape.cover_radius
+    }
+
+    /// Distance from another body, metres; negative by the grown radii at most when they
+    /// overlap.
+    pub fn distance(&self, other: &Placed) -> f64 {
+        if self.shape.is_cover() && other.shape.is_cover() {
+            return self.cover_distance(other);
+        }
+        let relative = parry_pose(&self.pose.inv_mul(&other.pose));
+        let apart =
+            distance_support_map_support_map(&relative, &self.shape.core, &other.shape.core);
+        apart - self.shape.radius - other.shape.radius
+    }
+
+    /// By how much two bodies are nearer than `wanted_m`; `None` when they are not.
+    pub(crate) fn lack(&self, other: &Placed, wanted_m: f64) -> Option<f64> {
+        if self.is_beyond(other, wanted_m) {
+            return None;
+        }
+        let lack = wanted_m - self.distance(other);
+        (lack > 0.0).then_some(lack)
+    }
+
+    /// Where they are nearest, if they are not further apart than `most_m`. Of bodies that
+    /// overlap by more than their grown radii nobody knows where.
+    pub(crate) fn gap(&self, other: &Placed, most_m: f64) -> Option<Gap> {
+        if self.is_beyond(other, most_m) {
+            return None;
+        }
+        let (radius, other_radius) = (self.shape.radius, other.shape.radius);
+        let (on_core, on_other) = if self.shape.is_cover() && other.shape.is_cover() {
+            self.cover.nearest(&other.cover)
+        } else {
+            let relative = parry_pose(&self.pose.inv_mul(&other.pose));
+            let reach = most_m + radius + other_radius;
+            let (core, other_core) = (&self.shape.core, &other.shape.core);
+            match closest_points_support_map_support_map(&relative, core, other_core, reach) {
+                ClosestPoints::WithinMargin(a, b) => {
+                    let point = |v: Vector| Point3::new(v.x, v.y, v.z);
+                    (self.pose * point(a), other.pose * point(b))
+                }
+                ClosestPoints::Intersecting | ClosestPoints::Disjoint => return None,
+            }
+        };
+        let (normal, apart) = Unit::try_new_and_get(on_other - on_core, 1e-9)?;
+        Some(Gap {
+            distance_m: apart - radius - other_radius,
+            normal,
+            points: [
+                on_core + normal.into_inner() * radius,
+                on_other - normal.into_inner() * other_radius,
+            ],
+        })
+    }
+
+    /// Whether simpler bodies about them say already that they are not nearer than `most_m`.
+    fn is_beyond(&self, other: &Placed, most_m: f64) -> bool {
+        self.box_distance(other) >= most_m
+            || other.box_distance(self) >= most_m
+            || self.cover_distance(other) >= most_m
+    }
+
+    /// The distance of the capsules that cover them, which is never larger than their own.
+    fn cover_distance(&self, other: &Placed) -> f64 {
+        let (a, b) = self.cover.nearest(&other.cover);
+        (a - b).norm() - self.shape.cover_radius - other.shape.cover_radius
+    }
+
+    /// Of a box: the distance from the cover of the other, its line taken for its bounding box
+    /// in this box's frame. Never larger than their own.
+    fn box_distance(&self, other: &Placed) -> f64 {
+        let Core::Box(half) = &self.shape.core else { return f64::NEG_INFINITY };
+        let middle = self.pose.inverse_transform_point(&other.cover.middle);
+        let extent = self.pose.inverse_transform_vector(&other.cover.half);
+        let gaps = middle.coords.abs() - half - extent.abs();
+        gaps.map(|gap| gap.max(0.0)).norm() - other.shape.cover_radius
     }
 }
 
@@ -241,18 +260,19 @@ mod tests {
         let capsule = Convex::from(&Shape::Capsule { radius_m: 0.05, length_m: 0.2 });
         let head = Convex::ellipsoid(Vector3::new(0.077, 0.099, 0.110));
         let origin = Pose::identity();
-        assert!((cube.distance(&origin, &capsule, &at(0.3, 0.0, 0.1)) - 0.15).abs() < 1e-6);
+        assert!((cube.at(origin).distance(&capsule.at(at(0.3, 0.0, 0.1))) - 0.15).abs() < 1e-6);
         assert!(
-            (head.distance(&origin, &Convex::ball(0.02), &at(0.0, 0.0, 0.2)) - 0.07).abs() < 1e-6
+            (head.at(origin).distance(&Convex::ball(0.02).at(at(0.0, 0.0, 0.2))) - 0.07).abs()
+                < 1e-6
         );
-        assert!((head.distance(&origin, &capsule, &at(0.0, -0.2, 0.0)) - 0.051).abs() < 1e-6);
-        assert!(cube.distance(&origin, &capsule, &at(0.1, 0.0, 0.0)) < 0.0);
+        assert!((head.at(origin).distance(&capsule.at(at(0.0, -0.2, 0.0))) - 0.051).abs() < 1e-6);
+        assert!(cube.at(origin).distance(&capsule.at(at(0.1, 0.0, 0.0))) < 0.0);
         let lying = Pose::from_parts(
             Translation3::new(0.0, 0.0, 1.0),
             UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
         );
-        assert!((capsule.lowest(&lying) - 0.95).abs() < 1e-12);
-        assert!((capsule.lowest(&origin) + 0.15).abs() < 1e-12);
+        assert!((capsule.at(lying).lowest().z - 0.95).abs() < 1e-12);
+        assert!((capsule.at(origin).lowest().z + 0.15).abs() < 1e-12);
     }
 
     #[test]
@@ -264,7 +284,7 @@ mod tests {
             let pose = Pose::from_parts(away.into(), rotation(&mut rng));
             let half_m = Vector3::new(0.033, 0.044, 0.055);
             let (palm, bound) = (Convex::from(&Shape::Box { half_m }), half_m.norm());
-            let distance = palm.distance(&pose, &head, &Pose::identity());
+            let distance = palm.at(pose).distance(&head.at(Pose::identity()));
             let (low, high) = (away.norm() - bound - 0.11, away.norm() - 0.11);
             assert!((low..high).contains(&distance), "{distance} not in {low}..{high}");
         }
@@ -287,10 +307,13 @@ mod tests {
                 let away = direction(&mut rng) * uniform(&mut rng, 0.1, 0.6);
                 Pose::from_parts(away.into(), rotation(&mut rng))
             };
-            let (at, other) = (draw(), draw());
-            let distance = a.distance(&at, b, &other);
-            assert!(a.least_distance(&at, b, &other) <= distance.max(0.0) + 1e-6);
-            let Some(gap) = a.gap(&at, b, &other, 0.3) else { continue };
+            let (a, b) = (a.at(draw()), b.at(draw()));
+            let distance = a.distance(&b);
+            for least in [a.cover_distance(&b), a.box_distance(&b), b.box_distance(&a)] {
+                assert!(least <= distance.max(0.0) + 1e-6, "{case}: {least} {distance}");
+            }
+            assert!(a.floor() <= a.lowest().z + 1e-12, "{case}");
+            let Some(gap) = a.gap(&b, 0.3) else { continue };
             assert!((gap.distance_m - distance).abs() < 1e-5, "{} {distance}", gap.distance_m);
             let between = gap.points[1] - gap.points[0];
             assert!((between - gap.normal.into_inner() * distance).norm() < 1e-4);

@@ -16,6 +16,6 @@ mod segment;
 mod tests;
 
 pub use checker::Checker;
-pub use convex::Convex;
+pub use convex::{Convex, Placed};
 pub use pairs::{Pairs, sampled};
 pub use rules::{Margins, Rules};

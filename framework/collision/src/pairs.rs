@@ -1,7 +1,7 @@
 //! Which pairs of bodies always or never touch, found by sampling.
 
+use crate::Placed;
 use crate::body::{Body, bodies, pairs};
-use seeone_core::Pose;
 use seeone_core::random::{generator, uniform};
 use seeone_core::robot::RobotModel;
 use std::collections::BTreeMap;
@@ -37,10 +37,10 @@ pub fn sampled(robot: &RobotModel, samples: usize, seed: u64) -> Pairs {
         let q: Vec<f64> = robot.joints().iter().map(draw).collect();
         let bodies = bodies(robot, uniform(&mut rng, 0.0, robot.gripper().stroke_m()));
         let links = robot.forward(&q);
-        let poses: Vec<Pose> = bodies.iter().map(|body| links[body.link] * body.pose).collect();
+        let placed: Vec<Placed> = bodies.iter().map(|body| body.placed(&links)).collect();
         let mut nearest: BTreeMap<(usize, usize), f64> = BTreeMap::new();
         for (a, b) in pairs(robot, &bodies) {
-            let distance = bodies[a].shape.distance(&poses[a], &bodies[b].shape, &poses[b]);
+            let distance = placed[a].distance(&placed[b]);
             let key = (index(&bodies[a]), index(&bodies[b]));
             let nearest = nearest.entry(key).or_insert(f64::INFINITY);
             *nearest = nearest.min(distance);

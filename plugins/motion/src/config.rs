@@ -25,6 +25,9 @@ pub struct MotionConfig {
     pub transit_speed_m_s: f64,
     /// The same with something in the hand.
     pub held_speed_m_s: f64,
+    /// Largest acceleration of the tool anywhere, metres a second squared: what hangs in the
+    /// hand feels it.
+    pub tool_acceleration_m_s2: f64,
     /// Distance of the poses along a line, metres.
     pub line_step_m: f64,
     /// Largest joint step between collision checks in free space, radians.
@@ -39,7 +42,8 @@ pub struct MotionConfig {
     pub held_ahead_m: f64,
     /// Branches of the arm that are tried for each key pose.
     pub branches: usize,
-    /// Most extensions of the random trees for one transit.
+    /// Most extensions of the random trees for one transit: what is not found by then is not found
+    /// with forty times as many.
     pub extensions: usize,
     /// Attempts to cut corners off a planned path.
     pub shortcuts: usize,
@@ -56,6 +60,7 @@ impl Default for MotionConfig {
             near_m: 0.05,
             transit_speed_m_s: 1.0,
             held_speed_m_s: 0.5,
+            tool_acceleration_m_s2: 1.5,
             line_step_m: 0.005,
             joint_step_rad: 0.05,
             clearance_m: 0.005,
@@ -63,7 +68,7 @@ impl Default for MotionConfig {
             held_radius_m: 0.12,
             held_ahead_m: 0.08,
             branches: 8,
-            extensions: 1500,
+            extensions: 1000,
             shortcuts: 60,
         }
     }
@@ -86,6 +91,7 @@ impl MotionConfig {
             ("guarded_speed_m_s", self.guarded_speed_m_s),
             ("transit_speed_m_s", self.transit_speed_m_s),
             ("held_speed_m_s", self.held_speed_m_s),
+            ("tool_acceleration_m_s2", self.tool_acceleration_m_s2),
             ("line_step_m", self.line_step_m),
             ("joint_step_rad", self.joint_step_rad),
         ];

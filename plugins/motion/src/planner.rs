@@ -2,7 +2,9 @@
 
 use crate::MotionConfig;
 use crate::plan::Plan;
-use crate::transit::Style;
+use crate::transit::{Style, transit};
+use seeone_collision::Checker;
+use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
     GripperCommand, Kinematics, Motion, MotionOutcome, MotionTask, PluginError, Setup,
@@ -35,6 +37,27 @@ impl Planner {
     /// [`PluginError::Configuration`] when the table is wrong.
     pub fn from_setup(setup: &Setup) -> Result<Self, PluginError> {
         Self::new(setup.configuration()?, setup.seed)
+    }
+
+    /// A free path of straight lines in joint space from `start` to `goal`, radians, with an
+    /// empty hand among what `checker` knows.
+    ///
+    /// # Errors
+    /// What is in the way.
+    ///
+    /// # Panics
+    /// When an end has not one position a joint.
+    pub fn free_path(
+        &self,
+        robot: &RobotModel,
+        checker: &Checker,
+        start: &[f64],
+        goal: &[f64],
+    ) -> Result<Vec<Vec<f64>>, String> {
+        let Planning { config, seed, style } = &self.0;
+        let mut rng = generator(*seed, "motion/free");
+        transit(robot, config, checker, false, *style, (start, goal), &mut rng)
+            .map_err(|failure| failure.to_string())
     }
 }
 

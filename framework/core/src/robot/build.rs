@@ -28,16 +28,16 @@ pub struct RobotOptions {
 }
 
 impl Default for RobotOptions {
-    /// At the world's origin, tool link `tcp`, 10 rad/s^2 and 200 rad/s^3 (robot descriptions
+    /// At the world's origin, tool link `tcp`, 10 rad/s^2 and 100 rad/s^3 (robot descriptions
     /// give neither; a six-axis arm is driven gently so, and reaches its largest acceleration
-    /// in 50 ms), every pair checked, an AG-95.
+    /// in 100 ms), every pair checked, an AG-95.
     fn default() -> Self {
         Self {
             base: Pose::identity(),
             tool_link: "tcp".into(),
             home: None,
             acceleration: 10.0,
-            jerk: 200.0,
+            jerk: 100.0,
             unchecked_pairs: Vec::new(),
             gripper: GripperOptions::default(),
         }
