@@ -119,6 +119,11 @@ fn the_tool_is_in_front_of_the_flange_and_the_next_answer_starts_at_the_last() {
     let (metres, radians) = off(&flange(&found), &flange(&q));
     assert!(metres < 1e-6 && radians < 1e-6, "{metres} {radians}");
     assert_eq!(answers[0]["q"], answers[1]["q"]);
+    // Wide open, the pads are further back and the flange has to be further ahead.
+    let wide = self::answers(&asked[..1], &["--frame", "tcp", "--opening", "0.095"]);
+    let ahead = flange(&q) * Matrix4::new_translation(&Vector3::new(0.0, 0.0, 0.0157));
+    let (metres, radians) = off(&flange(&numbers(&wide[0]["q"])), &ahead);
+    assert!(metres < 2e-4 && radians < 1e-6, "{metres} {radians}");
 }
 
 /// Straight lines of 0.15 m at 0.19 m/s with a little turn, from postures that are away from

@@ -73,6 +73,10 @@ fn a_robot_that_cannot_be_asked_is_told() {
     let bench = Bench::new();
     let unknown = ask(&bench, &targets, &["--method", "kinematics=magic"]);
     refused("unknown plugin", &bench, &unknown, "M001", &["magic", "qp-ik"]);
+    for opening in ["nan", "0.5"] {
+        let wide = ask(&bench, &targets, &["--opening", opening]);
+        refused("opening", &bench, &wide, "I006", &["--opening", "0.095 m"]);
+    }
     let other = ask(&bench, &targets, &["--method", "motion=joint-line"]);
     refused("another kind", &bench, &other, "M003", &["motion"]);
 }

@@ -92,7 +92,7 @@ pub struct RunArgs {
     /// Print the outcome as one JSON object on standard output.
     #[arg(long)]
     pub json: bool,
-    /// Folder for the recording and the picture.
+    /// Folder for the recording, the picture and the table of the planned motion.
     #[arg(long, default_value = "out")]
     pub out: PathBuf,
 }
@@ -355,6 +355,10 @@ pub struct IkArgs {
     /// Which frame the poses are of.
     #[arg(long, value_enum, default_value_t = Frame::Tool0)]
     pub frame: Frame,
+    /// With `--frame tcp`: how far the pads are apart, metres; they come forward as they close,
+    /// and the tool with them.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0)]
+    pub opening: f64,
     /// Keep away from what stands in this scene too, and not from the robot itself alone.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,

@@ -17,5 +17,5 @@ mod tests;
 
 pub use checker::Checker;
 pub use convex::{Convex, Placed};
-pub use pairs::{Pairs, sampled};
+pub use pairs::{Pairs, SAMPLES, sampled};
 pub use rules::{Margins, Rules};

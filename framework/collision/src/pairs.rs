@@ -6,6 +6,8 @@ use seeone_core::random::{generator, uniform};
 use seeone_core::robot::RobotModel;
 use std::collections::BTreeMap;
 
+/// Postures that are drawn for a robot file.
+pub const SAMPLES: usize = 20_000;
 /// A pair that was never nearer than this in any sample never touches, metres: postures
 /// between the samples come a little nearer.
 const NEVER_M: f64 = 0.01;

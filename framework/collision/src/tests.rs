@@ -134,3 +134,19 @@ fn pairs_are_sorted_out_by_sampling_and_then_left_out() {
     let all = checker(&robot, &[]).compared().count();
     assert_eq!(checker(&spared, &[]).compared().count() + options.unchecked_pairs.len(), all);
 }
+
+/// When this fails, print the table anew with the example `pairs`.
+#[test]
+fn the_robot_files_hold_what_sampling_finds() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+    for name in ["ur5-ag95", "panda-ag95"] {
+        let text = std::fs::read_to_string(folder.join(format!("{name}-sim.toml"))).unwrap();
+        let table: toml::Table = text.parse().unwrap();
+        let stored =
+            |key: &str| -> Vec<[String; 2]> { table["collision"][key].clone().try_into().unwrap() };
+        let urdf = folder.join(format!("{name}.urdf"));
+        let robot = RobotModel::from_urdf(&urdf, &RobotOptions::default()).unwrap();
+        let found = sampled(&robot, SAMPLES, 1);
+        assert_eq!((stored("always"), stored("never")), (found.always, found.never), "{name}");
+    }
+}

@@ -65,7 +65,9 @@ pub fn run(args: &IkArgs) -> Result<Ending> {
     // The fingers reach furthest to the sides when they are open.
     let opening_m = robot.gripper().stroke_m();
     let clearance = Checker::new(&robot, Margins::default(), &obstacles, opening_m);
-    let asked = Asked { robot: &robot, kinematics: kinematics.as_ref(), clearance: &clearance };
+    let shift = shift(args, &robot)?;
+    let asked =
+        Asked { robot: &robot, kinematics: kinematics.as_ref(), clearance: &clearance, shift };
     let lines = match (&args.path, &args.targets) {
         (Some(Some(path)), _) | (Some(None), Some(path)) => asked.paths(path, args.seed)?,
         (None, Some(path)) => asked.poses(path, args.from_home)?,
@@ -91,6 +93,19 @@ fn model(file: &RobotFile, frame: Frame) -> Result<RobotModel, Diagnostic> {
     file.model()
 }
 
+/// From the frame that is asked for to the tool frame of the robot.
+fn shift(args: &IkArgs, robot: &RobotModel) -> Result<Pose, Diagnostic> {
+    let stroke = robot.gripper().stroke_m();
+    if !(0.0..=stroke).contains(&args.opening) {
+        let cause = format!("--opening {}: the pads open by 0 to {stroke} m", args.opening);
+        return Err(Diagnostic::new("I006", cause).hint("give metres, 0.05 for 5 cm"));
+    }
+    match args.frame {
+        Frame::Tool0 => Ok(Pose::identity()),
+        Frame::Tcp => Ok(robot.tool_at(args.opening).inverse() * robot.tool()),
+    }
+}
+
 fn obstacles(scene: Option<&Path>, known: &KnownMethods) -> Result<Vec<Obstacle>> {
     let scene = scene.map(|path| Scene::read(path, known).map_err(Faults)).transpose()?;
     Ok(scene.map(|scene| scene.obstacles()).unwrap_or_default())
@@ -112,6 +127,8 @@ struct Asked<'a> {
     robot: &'a RobotModel,
     kinematics: &'a dyn Kinematics,
     clearance: &'a dyn Clearance,
+    /// The robot's tool frame in the frame whose poses are given.
+    shift: Pose,
 }
 
 impl Asked<'_> {
@@ -123,7 +140,7 @@ impl Asked<'_> {
         let (mut solved, mut touching) = (0, 0);
         for Target { id, wanted } in &targets {
             let clock = Instant::now();
-            let outcome = self.solve(&(self.robot.base() * wanted), &near)?;
+            let outcome = self.solve(&self.tool(wanted), &near)?;
             let time_us = 1e6 * clock.elapsed().as_secs_f64();
             times.push(time_us);
             let found = outcome.status == IkStatus::Solved;
@@ -145,6 +162,11 @@ impl Asked<'_> {
         Ok(lines)
     }
 
+    /// The tool in `world` for a pose of the asked frame in the base link.
+    fn tool(&self, pose: &Pose) -> Pose {
+        self.robot.base() * pose * self.shift
+    }
+
     fn solve(&self, target: &Pose, near: &[f64]) -> Result<IkOutcome> {
         let query = IkQuery { clearance: Some(self.clearance), ..IkQuery::new(target, near) };
         self.kinematics.solve(self.robot, &query).context("kinematics")
@@ -153,12 +175,12 @@ impl Asked<'_> {
     /// A line of JSON for each path.
     fn paths(&self, file: &Path, seed: u64) -> Result<Vec<String>> {
         let targets = targets::paths(file)?;
-        let Self { robot, kinematics, clearance } = *self;
+        let Self { robot, kinematics, clearance, .. } = *self;
         let follower = Follower { robot, kinematics, clearance, seed };
         let mut lines = Vec::with_capacity(targets.len());
         let mut whole = 0;
         for Target { id, wanted } in &targets {
-            let poses: Vec<Pose> = wanted.iter().map(|pose| robot.base() * pose).collect();
+            let poses: Vec<Pose> = wanted.iter().map(|pose| self.tool(pose)).collect();
             let followed = follower.follow(&poses).context("kinematics")?;
             whole += usize::from(followed.joints.len() == poses.len());
             lines.push(serde_json::to_string(&path_answer(id, followed, poses.len()))?);

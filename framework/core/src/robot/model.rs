@@ -2,7 +2,7 @@
 
 use super::{GripperModel, Joint, Solid, tessellate::tessellate};
 use crate::{Pose, TriangleMesh};
-use nalgebra::{Matrix6xX, Vector3};
+use nalgebra::{Matrix6xX, Translation3, Vector3};
 
 /// One rigid part of the arm: the base, or what is behind a joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,9 +50,17 @@ impl RobotModel {
         &self.links
     }
 
-    /// Pose of the tool frame (TCP) in the last link.
+    /// Pose of the tool frame (TCP) of the closed hand in the last link.
     pub fn tool(&self) -> &Pose {
         &self.tool
+    }
+
+    /// Pose of the tool frame in the last link with the pads `opening_m` apart: between the pads,
+    /// which come forward as they close. [`Self::tool`] is that of the closed hand.
+    pub fn tool_at(&self, opening_m: f64) -> Pose {
+        let gripper = &self.gripper;
+        let back = gripper.reach_m(opening_m) - gripper.reach_m(0.0);
+        self.tool * Translation3::new(0.0, 0.0, back)
     }
 
     /// Where the arm waits, radians; within the limits.

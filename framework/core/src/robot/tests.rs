@@ -102,6 +102,21 @@ fn the_gripper_is_the_ag95() {
 }
 
 #[test]
+fn the_tool_comes_forward_with_the_pads_as_they_close() {
+    let robot = ur5();
+    assert_eq!(robot.tool_at(0.0), *robot.tool());
+    let along = |opening| (robot.tool().inverse() * robot.tool_at(opening)).translation.vector.z;
+    assert!((along(0.0952) + 0.0158).abs() < 1e-12 && (along(0.0589) + 0.0036).abs() < 1e-12);
+    for opening in [0.0, 0.03, 0.095] {
+        let finger = &robot.gripper().finger_collision(opening)[0];
+        let Shape::Box { half_m } = finger.shape else { panic!() };
+        let tip = finger.pose.translation.z + half_m.z;
+        // 10.2 mm behind the tips, however far they are apart.
+        assert!((tip - robot.tool_at(opening).translation.z - 0.0102).abs() < 1e-9);
+    }
+}
+
+#[test]
 fn the_picture_has_every_body() {
     let robot = ur5();
     let meshes = robot.meshes(robot.home(), 0.03);
