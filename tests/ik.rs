@@ -8,7 +8,7 @@ use seeone_core::random::{direction, generator, uniform};
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
-use support::seeone;
+use support::{Bench, seeone};
 use tempfile::TempDir;
 
 /// a, d and alpha of each joint (CB3 manual), metres and radians.
@@ -198,4 +198,19 @@ fn both_plugins_and_a_scene_answer() {
     let low = rows(&flange(&[0.0, -0.1, 0.3, -1.3, -1.5, 0.0]));
     let answer = &answers(&[json!({ "id": 0, "pose": low })], &other[2..])[0];
     assert!(answer["collision"].as_str().is_some_and(|pair| pair.ends_with("-table")), "{answer}");
+    // The stand of the camera where the hand should be.
+    let bench = Bench::new();
+    let at = flange(&[0.4, -1.7, 1.5, -1.3, -1.4, 0.3]);
+    bench.append(
+        "scenes/head.toml",
+        &format!(
+            "\n[[obstacle]]\nname = \"stand\"\nradius_m = 0.02\nlength_m = 1.5\n\
+             pose = {{ xyz_m = [{}, {}, 0.7], quat_xyzw = [0.0, 0.0, 0.0, 1.0] }}\n",
+            at[(0, 3)],
+            at[(1, 3)]
+        ),
+    );
+    let answer = &answers(&asked, &["--scene", &bench.arg("scenes/head.toml")])[0];
+    assert!(answer["collision"].as_str().is_some_and(|pair| pair.ends_with("-stand")), "{answer}");
+    assert!(answer["reason"].as_str().is_some_and(|why| why.contains("mm")), "{answer}");
 }

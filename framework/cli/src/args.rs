@@ -41,6 +41,14 @@ pub enum Verb {
     /// Train the networks.
     Train(TrainArgs),
     /// Answer a file of poses, or of paths of poses, with joint positions.
+    ///
+    /// Targets are a JSON array of {"id", "pose"}, a pose four rows of four numbers: the frame in
+    /// the robot's base link, metres. Each is answered, in order, by {"id", "q", "status",
+    /// "time_us", "position_error_m", "rotation_error_rad", "collision", "reason"}; "q" is null
+    /// unless the status is "solved". Paths are an array of {"id", "poses"}, 125 poses a second,
+    /// each answered by {"id", "q", "fraction", "reason"}.
+    ///
+    /// Exit status 0 once everything is answered, whatever the answers say.
     Ik(IkArgs),
     /// Check skill, scene, robot, object, cloud and weights files.
     Check(CheckArgs),
@@ -327,14 +335,7 @@ pub enum Frame {
 }
 
 /// `ik`.
-///
-/// Targets are a JSON array of `{"id", "pose"}`, a pose four rows of four numbers: the frame in
-/// the robot's base link, metres. Each is answered, in order, by `{"id", "q", "status",
-/// "time_us", "position_error_m", "rotation_error_rad", "collision", "reason"}`. Paths are an
-/// array of `{"id", "poses"}`, 125 poses a second, each answered by `{"id", "q", "fraction",
-/// "reason"}`. Exit status 0 once everything is answered, whatever the answers say.
 #[derive(Clone, Debug, Args)]
-#[command(verbatim_doc_comment)]
 pub struct IkArgs {
     /// The robot file.
     #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]

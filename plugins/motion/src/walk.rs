@@ -4,7 +4,7 @@ use crate::MotionConfig;
 use crate::candidates::limit_cost;
 use crate::failure::{Failure, StageFailure};
 use crate::hand::Hand;
-use crate::line::follow;
+use crate::line::Line;
 use nalgebra::{Translation3, Vector3};
 use seeone_collision::{Checker, Rules};
 use seeone_core::Pose;
@@ -131,8 +131,9 @@ impl<'a> Walker<'a> {
             let rules = Rules { fingers_may_touch: near, held_radius_m: None };
             checker.contact_under(q, &rules).map(|contact| contact.to_string())
         };
-        follow(self.robot, self.kinematics, start, target, self.config.line_step_m, &fault)
-            .map_err(|failure| failure.at(&key.stage, purpose))
+        let (robot, kinematics, step_m) = (self.robot, self.kinematics, self.config.line_step_m);
+        let line = Line { robot, kinematics, start, target, step_m, fault: &fault };
+        line.follow().map_err(|failure| failure.at(&key.stage, purpose))
     }
 }
 

@@ -73,6 +73,42 @@ fn without_its_closed_form_every_reachable_pose_is_solved_from_seeded_starts() {
     assert_eq!(share(&ur5(), &DampedLeastSquares::new(config, 1).unwrap(), 1000), 1.0);
 }
 
+/// A factory calibration moves every joint's origin by up to a millimetre and tilts it by up to
+/// 3 mrad; older series of the arm differ by as much as that.
+#[test]
+fn a_calibrated_arm_reaches_every_reachable_pose() {
+    let text = std::fs::read_to_string(shipped("ur5-ag95.urdf")).unwrap();
+    let mut rng = generator(11, "calibration");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("calibrated.urdf");
+    for _ in 0..5 {
+        let mut off = || uniform(&mut rng, -1e-3, 1e-3);
+        let calibrated = text
+            .replace("0.089159", &format!("{}", 0.0892 + off()))
+            .replace(
+                "xyz=\"-0.425 0 0\"",
+                &format!("xyz=\"{} {} {}\"", -0.425 + off(), off(), off()),
+            )
+            .replace(
+                "xyz=\"-0.39225 0 0\"",
+                &format!(
+                    "xyz=\"{} 0 {}\" rpy=\"{} {} 0\"",
+                    -0.39243 + off(),
+                    off(),
+                    3.0 * off(),
+                    3.0 * off()
+                ),
+            )
+            .replace("xyz=\"0 0 0.10915\"", &format!("xyz=\"{} 0 {}\"", off(), 0.110 + off()))
+            .replace("xyz=\"0 0 0.09465\"", &format!("xyz=\"0 {} {}\"", off(), 0.09475 + off()));
+        assert_ne!(calibrated, text);
+        std::fs::write(&file, calibrated).unwrap();
+        let robot = RobotModel::from_urdf(&file, &RobotOptions::default()).unwrap();
+        assert!(ClosedForm::of(&robot).is_some(), "near enough to the structure");
+        assert_eq!(share(&robot, &qp(), 1000), 1.0);
+    }
+}
+
 #[test]
 fn an_arm_of_seven_joints_reaches_every_reachable_pose() {
     let panda = robot("panda-ag95.urdf");

@@ -157,6 +157,13 @@ fn refuses_a_broken_description_and_names_the_element() {
         ("<link name=\"tool0\"/>", "<link name=\"tool0\"/><link name=\"spare\"/>", "R005", "spare"),
         ("xyz=\"0 0 0.089159\" rpy", "xyz=\"0 0 NaN\" rpy", "R006", "shoulder_lift_joint"),
         ("radius=\"0.075\"", "radius=\"inf\"", "R006", "base_link"),
+        ("effort=\"150\"", "effort=\"NaN\"", "R006", "shoulder_pan_joint"),
+        (
+            "<link name=\"tool0\"/>",
+            "<link name=\"tool0\"><inertial><origin xyz=\"NaN 0 0\"/><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>",
+            "R006",
+            "tool0",
+        ),
         ("lower=\"-3.141592653589793\"", "lower=\"4\"", "R007", "elbow_joint"),
         ("velocity=\"3.141592653589793\"", "velocity=\"0\"", "R007", "shoulder_pan_joint"),
         ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 0\"/>", "R008", "shoulder_pan_joint"),

@@ -271,6 +271,7 @@ fn scene(head: Pose) -> Scene {
             half_extents_m: Vector2::new(0.25, 0.25),
             crop_height_m: 0.3,
         },
+        standing: Vec::new(),
     }
 }
 
