@@ -112,7 +112,8 @@ fn pose(value: &Value) -> Result<Pose, Diagnostic> {
     let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     let off = (rotation.tr_mul(&rotation) - Matrix3::identity()).amax();
     // A comparison that an overflow to NaN fails.
-    if !(off <= ORTHONORMAL) {
+    let orthonormal = off <= ORTHONORMAL;
+    if !orthonormal {
         return Err(fault(format!("its rotation is not orthonormal: off by {off:.3}")));
     }
     if rotation.determinant() < 0.0 {
