@@ -63,7 +63,9 @@ impl Follower<'_> {
         for near in nears {
             let first = self.kinematics.solve(self.robot, &IkQuery::new(&poses[0], &near))?;
             if first.status != IkStatus::Solved {
-                best.reason = best.reason.or(first.reason);
+                if tried.is_empty() {
+                    best.reason = first.reason;
+                }
                 continue;
             }
             let same =

@@ -102,13 +102,11 @@ impl<S: Step> Descents<S> {
             let Known { seeds, excess } = known;
             search.excess = if seeds.is_empty() { excess } else { None };
             // The closed form finds every solution there is; more starts would find no other.
-            if seeds.iter().any(|start| search.start(workspace, start)) || search.is_solved() {
-                return;
+            let ended = seeds.iter().any(|start| search.start(workspace, start));
+            if !(ended || search.is_solved()) {
+                search.start(workspace, query.near);
             }
-            search.start(workspace, query.near);
-            return;
-        }
-        if !search.start(workspace, query.near) {
+        } else if !search.start(workspace, query.near) {
             let mut restarts = seeds::random(robot, self.seed, self.config.restarts);
             restarts.any(|start| search.start(workspace, &start));
         }
