@@ -22,6 +22,11 @@ pub(crate) fn unsolved(
     let mut told = format!(
         "the nearest posture found{branch} is {millimetres:.1} mm and {degrees:.1} degrees off"
     );
+    let beyond = beyond_reach(robot, query);
+    if beyond > 0.0 {
+        told += &format!("; the target is {:.1} mm at least beyond the arm's reach", 1e3 * beyond);
+        return told;
+    }
     if let Some(Excess { joint, position, .. }) = excess {
         let joint = &robot.joints()[joint];
         let (name, low, high) = (joint.name(), joint.lower(), joint.upper());
@@ -48,6 +53,16 @@ pub(crate) fn unsolved(
         told += &format!(", with {} at the largest speed", hurried.join(", "));
     }
     told
+}
+
+/// How far the target is beyond what the arm reaches when every link points at it, metres;
+/// negative within.
+fn beyond_reach(robot: &RobotModel, query: &IkQuery) -> f64 {
+    let joints = robot.joints();
+    let first = robot.base() * joints[0].origin();
+    let links = joints[1..].iter().map(|joint| joint.origin().translation.vector.norm());
+    let reach = links.sum::<f64>() + robot.tool().translation.vector.norm();
+    query.target.translation.vector.metric_distance(&first.translation.vector) - reach
 }
 
 /// That every one of `solutions` touches something, `contact` the best of them.

@@ -211,6 +211,7 @@ fn an_unreachable_pose_says_by_how_much() {
     assert!(outcome.position_error_m > 0.5 && robot.within_limits(&outcome.joints));
     let told = outcome.reason.unwrap();
     assert!(told.contains(&format!("{:.1} mm", 1e3 * outcome.position_error_m)), "{told}");
+    assert!(told.contains("beyond the arm's reach"), "{told}");
 }
 
 #[test]
