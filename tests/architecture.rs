@@ -89,7 +89,7 @@ fn the_framework_names_no_plugin_except_in_the_binary() {
 
 #[test]
 fn no_plugin_depends_on_another_or_on_the_runtime() {
-    let allowed = ["seeone-core", "seeone-plugin", "seeone-nn", "seeone-sim"];
+    let allowed = ["seeone-core", "seeone-plugin", "seeone-collision", "seeone-nn", "seeone-sim"];
     for (path, manifest) in manifests() {
         if !path.starts_with(PLUGIN_PREFIX) {
             continue;

@@ -118,7 +118,7 @@ fn a_run_tells_draws_and_records_itself_and_its_seed_repeats_it() {
         assert!(once.outcome["timings_ms"][step].as_f64().is_some_and(|ms| ms > 0.0), "{step}");
     }
     assert!(once.outcome["error_m"].as_f64().is_some_and(|e| e.is_finite() && e >= 0.0));
-    assert_eq!(once.files(), ["mcap", "png"]);
+    assert_eq!(once.files(), ["csv", "mcap", "png"]);
     let recording = read(&once.recording_path()).expect("a sound recording");
     for channel in Channel::ALL {
         assert!(recording.of(channel).next().is_some(), "nothing in {}", channel.topic());

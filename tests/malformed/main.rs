@@ -5,6 +5,7 @@ mod check;
 mod cloud;
 mod flags;
 mod honest;
+mod ik;
 mod objects;
 mod plugins;
 mod robot;

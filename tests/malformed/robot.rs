@@ -14,6 +14,7 @@ fn a_wrong_robot_is_told() {
             ("unknown plugin", "plugin", "plugin = \"ur5-sim\"", "B024", "ur5-ag95-sim"),
             ("missing URDF", "urdf", "urdf = \"none.urdf\"", "B024", "none.urdf"),
             ("no acceleration", "acceleration_rad_s2", "acceleration_rad_s2 = 0.0", "B020", ""),
+            ("no jerk", "jerk_rad_s3", "jerk_rad_s3 = -1.0", "B020", "jerk_rad_s3"),
             ("unknown kind", "[limits]", "[config.magic]\na = 1\n[limits]", "B012", "magic"),
         ],
     );
@@ -35,6 +36,7 @@ fn a_wrong_robot_is_told() {
         ("home of two joints", "home_rad = [0.0, 1.0]", "R0"),
         ("home out of the limits", "home_rad = [0.0, 0.0, 9.0, 0.0, 0.0, 0.0]", "R0"),
         ("unknown tool", "tool_link = \"tpc\"", "R0"),
+        ("unknown pair", "never = [[\"elbow\", \"tool0\"],", "R016"),
     ] {
         let bench = Bench::new();
         bench.set_line(ROBOT, &line[..8], line);

@@ -46,3 +46,19 @@ fn an_unclosed_bracket_is_not_told_for_every_line_after_it() {
     refused("unclosed", &bench, &call, "C002", &["head.toml:", "more; `seeone check` tells all"]);
     assert_eq!(call.stderr.matches("error[").count(), 5, "{}", call.stderr);
 }
+
+#[test]
+fn a_wrong_obstacle_is_told() {
+    let pose = "pose = { xyz_m = [0.9, -0.5, 0.4], quat_xyzw = [0.0, 0.0, 0.0, 1.0] }";
+    for (case, shape, code, cause) in [
+        ("no shape", "", "C011", "either size_m"),
+        ("two shapes", "size_m = [0.1, 0.1, 0.1]\nradius_m = 0.1", "C011", "either size_m"),
+        ("no length", "radius_m = 0.1", "C011", "either size_m"),
+        ("flat", "size_m = [0.1, 0.0, 0.1]", "C020", "size_m"),
+        ("unknown key", "mass_kg = 1.0", "C012", "mass_kg"),
+    ] {
+        let bench = Bench::new();
+        bench.append(SCENE, &format!("\n[[obstacle]]\nname = \"stand\"\n{pose}\n{shape}\n"));
+        refused(case, &bench, &bench.run(&[]), code, &["head.toml:", cause]);
+    }
+}

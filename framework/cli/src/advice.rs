@@ -16,6 +16,12 @@ fn general(code: &str) -> Option<&'static str> {
         ("S" | "C" | "B", number) => file(number),
         ("R", _) => Some("mend the URDF, or the robot file that names its links and joints"),
         ("P", _) => Some("give a PLY cloud such as `seeone teach` writes"),
+        ("I", "001") => Some("name a JSON file of at most 64 MiB that is there and may be read"),
+        ("I", "003") => Some("write finite numbers: JSON knows neither NaN nor Infinity"),
+        ("I", "005") => Some(
+            "a pose is [[r, r, r, x], [r, r, r, y], [r, r, r, z], [0, 0, 0, 1]], metres, its rotation orthonormal",
+        ),
+        ("I", _) => Some("see `seeone ik --help` for what the file holds"),
         ("L", _) => Some("give a plugin's library with the manifest of `seeone plugins trust`"),
         ("O", "004") => Some("make object files with `seeone objects import`"),
         ("O", _) => Some("see `seeone objects import --help`"),

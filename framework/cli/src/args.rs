@@ -40,6 +40,16 @@ pub enum Verb {
     Data(DataArgs),
     /// Train the networks.
     Train(TrainArgs),
+    /// Answer a file of poses, or of paths of poses, with joint positions.
+    ///
+    /// Targets are a JSON array of {"id", "pose"}, a pose four rows of four numbers: the frame in
+    /// the robot's base link, metres. Each is answered, in order, by {"id", "q", "status",
+    /// "time_us", "position_error_m", "rotation_error_rad", "collision", "reason"}; "q" is null
+    /// unless the status is "solved". Paths are an array of {"id", "poses"}, 125 poses a second,
+    /// each answered by {"id", "q", "fraction", "reason"}.
+    ///
+    /// Exit status 0 once everything is answered, whatever the answers say.
+    Ik(IkArgs),
     /// Check skill, scene, robot, object, cloud and weights files.
     Check(CheckArgs),
     /// Plugins: list what is built in, trust a dynamic library.
@@ -90,7 +100,7 @@ pub struct RunArgs {
     /// Print the outcome as one JSON object on standard output.
     #[arg(long)]
     pub json: bool,
-    /// Folder for the recording and the picture.
+    /// Folder for the recording, the picture and the table of the planned motion.
     #[arg(long, default_value = "out")]
     pub out: PathBuf,
 }
@@ -338,6 +348,52 @@ pub struct TrainArgs {
     /// Share of the full number of samples, for a trial: 1 trains fully.
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true, value_parser = share)]
     pub share: f64,
+}
+
+/// The frame whose poses are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Frame {
+    /// The flange, the URDF link `tool0`.
+    Tool0,
+    /// The tool link of the robot file.
+    Tcp,
+}
+
+/// `ik`.
+#[derive(Clone, Debug, Args)]
+pub struct IkArgs {
+    /// The robot file.
+    #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
+    pub robot: PathBuf,
+    /// The targets (JSON).
+    #[arg(long, value_name = "FILE", required_unless_present = "path")]
+    pub targets: Option<PathBuf>,
+    /// The targets are paths, each to be followed on one branch of the arm; named here, or by
+    /// `--targets`.
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    pub path: Option<Option<PathBuf>>,
+    /// The file to write; left out, the answers go to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Start each target from the robot's home and not from the answer before it.
+    #[arg(long)]
+    pub from_home: bool,
+    /// Which frame the poses are of.
+    #[arg(long, value_enum, default_value_t = Frame::Tool0)]
+    pub frame: Frame,
+    /// With `--frame tcp`: how far the pads are apart, metres; they come forward as they close,
+    /// and the tool with them.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0)]
+    pub opening: f64,
+    /// Keep away from what stands in this scene too, and not from the robot itself alone.
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Use another plugin, e.g. `kinematics=damped-least-squares`.
+    #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
+    pub methods: Vec<(Kind, String)>,
+    /// Seed of the solver's restarts.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
 }
 
 /// `check`.

@@ -6,11 +6,14 @@ mod builtin;
 mod console;
 mod faults;
 mod files;
+mod follow;
+mod motion_table;
 mod objects;
 mod outputs;
 mod picture;
 mod rate;
 mod simulated;
+mod targets;
 mod threads;
 mod verbs;
 mod workcell;
@@ -70,6 +73,7 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         }
         Verb::Data(args) => verbs::data::run(args),
         Verb::Train(args) => verbs::train::run(args),
+        Verb::Ik(args) => verbs::ik::run(args),
         Verb::Check(args) => verbs::check::run(args),
         Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
         Verb::Plugins { action: PluginsAction::Trust { library } } => {

@@ -1,11 +1,11 @@
 //! Kind `kinematics`: joint positions that bring the tool to a pose.
 
-use crate::PluginError;
+use crate::{Clearance, Contact, PluginError};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
 
 /// One inverse kinematics problem.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct IkQuery<'a> {
     /// Wanted pose of the tool frame (TCP) in `world`.
     pub target: &'a Pose,
@@ -14,6 +14,24 @@ pub struct IkQuery<'a> {
     /// Whether the answer must be on the branch continuous with `near` (path following)
     /// or may be any.
     pub continuous: bool,
+    /// The time since the arm was at `near`, seconds, in which no joint moves further than
+    /// its largest speed allows; `None` when it may take as long as it likes.
+    pub period_s: Option<f64>,
+    /// What to keep away from: among several answers one that touches nothing is chosen, and
+    /// an answer that touches something says so.
+    pub clearance: Option<&'a dyn Clearance>,
+}
+
+impl<'a> IkQuery<'a> {
+    /// Any answer, near `near`.
+    pub fn new(target: &'a Pose, near: &'a [f64]) -> Self {
+        Self { target, near, continuous: false, period_s: None, clearance: None }
+    }
+
+    /// The answer on the branch continuous with `near`.
+    pub fn continuous(target: &'a Pose, near: &'a [f64]) -> Self {
+        Self { continuous: true, ..Self::new(target, near) }
+    }
 }
 
 /// How a solver ended.
@@ -38,7 +56,9 @@ pub struct IkOutcome {
     pub rotation_error_rad: f64,
     /// Steps taken.
     pub iterations: usize,
-    /// Why it is not solved.
+    /// What the arm touches there, of what the query asked to keep away from.
+    pub contact: Option<Contact>,
+    /// Why it is not solved, or touches something.
     pub reason: Option<String>,
 }
 
@@ -47,6 +67,7 @@ pub trait Kinematics: Send + Sync {
     /// Solves one problem.
     ///
     /// # Errors
-    /// [`PluginError::Input`] for a pose that is not finite or a wrong joint count.
+    /// [`PluginError::Input`] for a pose that is not finite, a wrong joint count, or a start
+    /// that is not finite or outside the limits.
     fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError>;
 }

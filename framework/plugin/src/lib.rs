@@ -7,6 +7,7 @@
 pub mod abi;
 pub mod alignment;
 pub mod camera;
+pub mod clearance;
 pub mod conformance;
 pub mod encoding;
 pub mod error;
@@ -22,6 +23,7 @@ pub mod transfer;
 
 pub use alignment::{Alignment, AlignmentOutcome, Correspondences};
 pub use camera::{Camera, Observation};
+pub use clearance::{Clearance, Contact, Proximity};
 pub use encoding::{Encoding, Features, Field};
 pub use error::PluginError;
 pub use judge::{Judge, Measure, Verdict};

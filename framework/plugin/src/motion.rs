@@ -3,7 +3,7 @@
 use crate::{GripperCommand, Kinematics, PluginError};
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use seeone_core::Pose;
-use seeone_core::robot::RobotModel;
+use seeone_core::robot::{RobotModel, Solid};
 
 /// A gripper pose that the skill passes through, with what happens around it.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +49,9 @@ pub enum Obstacle {
         /// Its semi-axes, metres.
         semi_axes_m: Vector3<f64>,
     },
+    /// A box, cylinder, capsule or ball, e.g. a shelf or the stand of a camera; its `part` is
+    /// its name in reasons, its pose is in `world`.
+    Solid(Solid),
 }
 
 /// One planning problem.

@@ -25,7 +25,7 @@ pub(crate) fn candidates(
     near: &[f64],
     count: usize,
 ) -> Result<Vec<Vec<f64>>, Failure> {
-    let first = kinematics.solve(robot, &IkQuery { target, near, continuous: false })?;
+    let first = kinematics.solve(robot, &IkQuery::new(target, near))?;
     if first.status != IkStatus::Solved {
         return Err(Failure::Infeasible(
             first.reason.unwrap_or_else(|| "no posture reaches it".into()),
@@ -39,7 +39,7 @@ pub(crate) fn candidates(
         }
         let near_by: Vec<f64> =
             robot.joints().iter().map(|j| uniform(&mut rng, j.lower(), j.upper())).collect();
-        let query = IkQuery { target, near: &near_by, continuous: false };
+        let query = IkQuery::new(target, &near_by);
         let outcome = kinematics.solve(robot, &query)?;
         let joints = turned_towards(robot, &outcome.joints, near);
         let known = found.iter().any(|q| furthest(q, &joints) < SAME_RAD);

@@ -1,5 +1,6 @@
 //! The planners' table in a configuration.
 
+use seeone_collision::Margins;
 use seeone_plugin::PluginError;
 use serde::Deserialize;
 
@@ -24,6 +25,9 @@ pub struct MotionConfig {
     pub transit_speed_m_s: f64,
     /// The same with something in the hand.
     pub held_speed_m_s: f64,
+    /// Largest acceleration of the tool anywhere, metres a second squared: what hangs in the
+    /// hand feels it.
+    pub tool_acceleration_m_s2: f64,
     /// Distance of the poses along a line, metres.
     pub line_step_m: f64,
     /// Largest joint step between collision checks in free space, radians.
@@ -38,7 +42,8 @@ pub struct MotionConfig {
     pub held_ahead_m: f64,
     /// Branches of the arm that are tried for each key pose.
     pub branches: usize,
-    /// Most extensions of the random trees for one transit.
+    /// Most extensions of the random trees for one transit: what is not found by then is not found
+    /// with forty times as many.
     pub extensions: usize,
     /// Attempts to cut corners off a planned path.
     pub shortcuts: usize,
@@ -55,6 +60,7 @@ impl Default for MotionConfig {
             near_m: 0.05,
             transit_speed_m_s: 1.0,
             held_speed_m_s: 0.5,
+            tool_acceleration_m_s2: 1.5,
             line_step_m: 0.005,
             joint_step_rad: 0.05,
             clearance_m: 0.005,
@@ -62,13 +68,18 @@ impl Default for MotionConfig {
             held_radius_m: 0.12,
             held_ahead_m: 0.08,
             branches: 8,
-            extensions: 1500,
+            extensions: 1000,
             shortcuts: 60,
         }
     }
 }
 
 impl MotionConfig {
+    /// The distances that are kept.
+    pub(crate) fn margins(&self) -> Margins {
+        Margins { clearance_m: self.clearance_m, held_ahead_m: self.held_ahead_m }
+    }
+
     /// # Errors
     /// [`PluginError::Configuration`] for a number without meaning.
     pub(crate) fn checked(self) -> Result<Self, PluginError> {
@@ -80,6 +91,7 @@ impl MotionConfig {
             ("guarded_speed_m_s", self.guarded_speed_m_s),
             ("transit_speed_m_s", self.transit_speed_m_s),
             ("held_speed_m_s", self.held_speed_m_s),
+            ("tool_acceleration_m_s2", self.tool_acceleration_m_s2),
             ("line_step_m", self.line_step_m),
             ("joint_step_rad", self.joint_step_rad),
         ];

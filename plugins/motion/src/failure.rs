@@ -1,6 +1,7 @@
 //! Why something cannot be planned.
 
 use seeone_plugin::{MotionOutcome, PluginError};
+use std::fmt;
 
 /// Why a line, a transit or a posture is not to be had.
 #[derive(Debug)]
@@ -16,6 +17,15 @@ pub(crate) enum Failure {
 pub(crate) struct StageFailure {
     stage: String,
     failure: Failure,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Infeasible(reason) => write!(f, "{reason}"),
+            Self::Plugin(error) => write!(f, "{error}"),
+        }
+    }
 }
 
 impl From<PluginError> for Failure {

@@ -7,16 +7,16 @@
 //! refuses.
 
 mod candidates;
-mod checker;
 mod config;
-mod convex;
 mod failure;
 mod hand;
 mod line;
 mod plan;
 mod planner;
+mod profile;
 mod rrt;
 mod script;
+mod spline;
 mod timing;
 mod transit;
 mod walk;

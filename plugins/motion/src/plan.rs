@@ -3,13 +3,13 @@
 
 use crate::MotionConfig;
 use crate::candidates::candidates;
-use crate::checker::Checker;
 use crate::failure::{Failure, StageFailure};
 use crate::hand::Hand;
 use crate::rrt::distance;
 use crate::script::Script;
 use crate::transit::{Style, transit};
 use crate::walk::{Walk, Walker};
+use seeone_collision::Checker;
 use seeone_core::pose::difference;
 use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
@@ -132,7 +132,7 @@ impl<'a> Plan<'a> {
 
     /// Whether some posture reaches a key pose.
     fn reach(&self, key: &KeyPose) -> Result<(), StageFailure> {
-        let query = IkQuery { target: &key.pose, near: self.task.start, continuous: false };
+        let query = IkQuery::new(&key.pose, self.task.start);
         let told = |failure: Failure| failure.at(&key.stage, "out of reach");
         let outcome = self.kinematics.solve(self.robot, &query).map_err(|e| told(e.into()))?;
         match outcome.status {
@@ -149,7 +149,12 @@ impl<'a> Plan<'a> {
         start: &[f64],
         goal: &[f64],
     ) -> Result<Vec<Vec<f64>>, Failure> {
-        let checker = Checker::new(self.robot, self.config, self.task.obstacles, &group.hand);
+        let checker = Checker::new(
+            self.robot,
+            self.config.margins(),
+            self.task.obstacles,
+            group.hand.opening_m,
+        );
         let mut rng = generator(self.seed, &format!("motion/{}", group.stage()));
         let (style, holding) = (self.style, group.hand.holding);
         transit(self.robot, self.config, &checker, holding, style, (start, goal), &mut rng)

@@ -1,11 +1,14 @@
 //! The two plugins.
 
 use crate::MotionConfig;
+use crate::hand::Hand;
 use crate::plan::Plan;
-use crate::transit::Style;
+use crate::transit::{Style, transit};
+use seeone_collision::Checker;
+use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
-    GripperCommand, Kinematics, Motion, MotionOutcome, MotionTask, PluginError, Setup,
+    GripperCommand, KeyPose, Kinematics, Motion, MotionOutcome, MotionTask, PluginError, Setup,
 };
 
 /// Plans around obstacles.
@@ -35,6 +38,27 @@ impl Planner {
     /// [`PluginError::Configuration`] when the table is wrong.
     pub fn from_setup(setup: &Setup) -> Result<Self, PluginError> {
         Self::new(setup.configuration()?, setup.seed)
+    }
+
+    /// A free path of straight lines in joint space from `start` to `goal`, radians, with an
+    /// empty hand among what `checker` knows.
+    ///
+    /// # Errors
+    /// What is in the way.
+    ///
+    /// # Panics
+    /// When an end has not one position a joint.
+    pub fn free_path(
+        &self,
+        robot: &RobotModel,
+        checker: &Checker,
+        start: &[f64],
+        goal: &[f64],
+    ) -> Result<Vec<Vec<f64>>, String> {
+        let Planning { config, seed, style } = &self.0;
+        let mut rng = generator(*seed, "motion/free");
+        transit(robot, config, checker, false, *style, (start, goal), &mut rng)
+            .map_err(|failure| failure.to_string())
     }
 }
 
@@ -87,12 +111,34 @@ impl Planning {
     ) -> Result<MotionOutcome, PluginError> {
         check(robot, task)?;
         let (config, seed, style) = (&self.config, self.seed, self.style);
+        let key_poses = of_the_closed_hand(robot, task);
+        let task = &MotionTask { key_poses: &key_poses, ..*task };
         let plan = Plan { config, seed, style, robot, kinematics, task };
         match plan.solve() {
             Ok((program, cost)) => Ok(MotionOutcome::Planned { program, cost }),
             Err(failure) => failure.outcome(),
         }
     }
+}
+
+/// The key poses of the task as poses of the closed hand's tool, which the kinematics knows: a
+/// hand that stays open at a pose has its pads further back. One that closes there meets the
+/// pose with its pads closed, and so does one that holds something, which is thin.
+fn of_the_closed_hand(robot: &RobotModel, task: &MotionTask) -> Vec<KeyPose> {
+    let mut hand = Hand { opening_m: 0.0, holding: task.holding };
+    let shifted = |key: &KeyPose| {
+        hand = hand.approaching(key);
+        let acting = if let Some(GripperCommand::Close { .. }) = key.gripper {
+            hand.after(key.gripper)
+        } else {
+            hand
+        };
+        let opening_m = if acting.holding { 0.0 } else { acting.opening_m };
+        hand = hand.after(key.gripper);
+        let shift = robot.tool_at(opening_m).inverse() * robot.tool();
+        KeyPose { pose: key.pose * shift, ..key.clone() }
+    };
+    task.key_poses.iter().map(shifted).collect()
 }
 
 /// # Errors

@@ -56,9 +56,14 @@ impl<'a> Script<'a> {
     fn line(&self, path: &[Vec<f64>], slow_start: bool, slow_end: bool) -> JointTrajectory {
         let config = self.timing.config;
         let last = path.len() - 1;
-        let near = ((config.near_m / config.line_step_m).ceil() as usize).min(last);
-        let first_cut = if slow_start { near } else { 0 };
-        let last_cut = if slow_end { (last - near).max(first_cut) } else { last };
+        let tool = |q: &Vec<f64>| self.timing.robot.tool_pose(q).translation.vector;
+        let near = |end: &Vec<f64>| {
+            let end = tool(end);
+            path.iter().filter(|q| tool(q).metric_distance(&end) <= config.near_m).count()
+        };
+        let first_cut = if slow_start { near(&path[0]).min(last) } else { 0 };
+        let last_cut =
+            if slow_end { last.saturating_sub(near(&path[last])).max(first_cut) } else { last };
         let pieces = [
             (&path[..=first_cut], config.near_speed_m_s),
             (&path[first_cut..=last_cut], config.line_speed_m_s),

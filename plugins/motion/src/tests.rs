@@ -128,7 +128,8 @@ fn a_line_that_ends_with_contact_is_slow_all_the_way() {
 #[test]
 fn an_arm_that_stands_at_the_pose_with_something_in_the_hand_just_goes_on() {
     let pose = downward(0.35, 0.40, 0.30);
-    let there = planned(plan(&planner(), &[key("hold", pose)], &[]));
+    let gripper = Some(GripperCommand::Close { force_n: 45.0 });
+    let there = planned(plan(&planner(), &[KeyPose { gripper, ..key("hold", pose) }], &[]));
     let start = moves(&there).last().unwrap().positions.last().unwrap().clone();
     let keys = [KeyPose { lift_m: 0.1, ..key("hold", pose) }, key("on", downward(0.3, 0.3, 0.5))];
     let task = MotionTask { start: &start, holding: true, key_poses: &keys, obstacles: &[] };
@@ -138,6 +139,22 @@ fn an_arm_that_stands_at_the_pose_with_something_in_the_hand_just_goes_on() {
         program.steps.iter().map(|step| (step.stage.as_str(), step.purpose)).collect();
     assert_eq!(steps, [("hold", "lift"), ("on", "transit")], "no fingers move");
     assert_eq!(moves(&program)[0].positions[0], start);
+}
+
+#[test]
+fn an_open_hand_meets_a_pose_with_its_pads_where_they_are_then() {
+    let robot = ur5();
+    let pose = downward(0.45, -0.15, 0.3);
+    let close = Some(GripperCommand::Close { force_n: 45.0 });
+    for (gripper, opening_m, back) in [(None, 0.095, 0.0158), (None, 0.0, 0.0), (close, 0.095, 0.0)]
+    {
+        let program =
+            planned(plan(&planner(), &[KeyPose { opening_m, gripper, ..key("there", pose) }], &[]));
+        let at = moves(&program).last().unwrap().positions.last().unwrap();
+        let tool = robot.tool_pose(at).translation.vector;
+        // The tool frame of the closed hand is further ahead: downward.
+        assert!((tool.z - (0.3 - back)).abs() < 2e-4, "{opening_m}: {}", tool.z);
+    }
 }
 
 #[test]
@@ -258,7 +275,7 @@ fn what_cannot_be_done_says_at_which_stage_and_by_how_much() {
     assert!(stage == "hang" && reason.contains("mm"), "{stage}: {reason}");
     let (stage, reason) =
         refused(plan(&planner(), &[key("pick", downward(0.45, 0.0, -0.05))], &[table()]));
-    assert!(stage == "pick" && reason.contains("the table"), "{reason}");
+    assert!(stage == "pick" && reason.contains("table"), "{reason}");
     let sunk = KeyPose { lift_m: 0.1, ..key("pick", downward(0.45, 0.0, -0.015)) };
     planned(plan(&planner(), &[sunk], &[table()]));
 }

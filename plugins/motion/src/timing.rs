@@ -1,12 +1,12 @@
-//! From paths to trajectories: each piece starts and ends at rest, follows a quintic in
-//! time (no step in acceleration), and takes as long as the limits demand.
+//! From paths to trajectories: each piece starts and ends at rest, is run through with limited
+//! jerk, and takes as long as the limits demand.
 
 use crate::MotionConfig;
+use crate::profile::{Limits, Profile};
+use crate::spline::Spline;
+use nalgebra::Vector3;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::JointTrajectory;
-
-/// The quintic's largest speed and acceleration for unit length in unit time.
-const PEAK_SPEED: f64 = 1.875;
 
 /// Times paths for one robot.
 pub(crate) struct Timing<'a> {
@@ -31,7 +31,8 @@ impl Timing<'_> {
     pub(crate) fn line(&self, pieces: &[(&[Vec<f64>], f64)]) -> JointTrajectory {
         let mut samples = pieces[0].0[..1].to_vec();
         for (path, tool_speed) in pieces {
-            self.append(&mut samples, &|u: f64| spline(path, u), *tool_speed);
+            let spline = Spline::through(path);
+            self.append(&mut samples, &|u: f64| spline.at(u), *tool_speed);
         }
         JointTrajectory { period_s: self.config.period_s, positions: samples }
     }
@@ -39,90 +40,210 @@ impl Timing<'_> {
     /// Appends the samples of one piece, whose first posture is already there.
     fn append(&self, samples: &mut Vec<Vec<f64>>, at: &dyn Fn(f64) -> Vec<f64>, tool_speed: f64) {
         let period = self.config.period_s;
-        let mut duration: f64 = self.shortest(at, tool_speed).max(period);
+        let profile = Profile::fastest(&self.limits(at, tool_speed));
+        let mut duration: f64 = profile.duration();
         loop {
+            // A whole number of periods: the last sample is the end.
             let count = (duration / period).ceil().max(1.0) as usize;
             let piece: Vec<Vec<f64>> =
-                (0..=count).map(|k| at(quintic(k as f64 / count as f64))).collect();
+                (0..=count).map(|k| at(profile.at(k as f64 / count as f64).position)).collect();
             let excess = self.excess(&piece, tool_speed);
             if excess <= 1.0 {
                 samples.extend(piece.into_iter().skip(1));
                 return;
             }
             // At least a whole period more, so that this ends.
-            duration = count as f64 * period * excess + period;
+            duration = (count as f64 * period * excess).max(period * (count + 1) as f64);
         }
     }
 
-    /// A lower bound of a piece's duration from its chord.
-    fn shortest(&self, at: &dyn Fn(f64) -> Vec<f64>, tool_speed: f64) -> f64 {
+    /// What a piece allows if it goes straight from end to end; all that is beyond comes out
+    /// when its samples are looked at.
+    fn limits(&self, at: &dyn Fn(f64) -> Vec<f64>, tool_speed: f64) -> Limits {
         let (a, b) = (at(0.0), at(1.0));
-        let joints = self.robot.joints().iter().zip(a.iter().zip(&b));
-        let speed = |(joint, (a, b)): (&seeone_core::robot::Joint, (&f64, &f64))| {
-            PEAK_SPEED * (a - b).abs() / (joint.velocity() * self.config.speed)
-        };
         let tool = self.tool(&a).metric_distance(&self.tool(&b));
-        joints.map(speed).fold(PEAK_SPEED * tool / tool_speed, f64::max)
+        let most =
+            |limit: f64, length: f64| if length > 0.0 { limit / length } else { f64::INFINITY };
+        let mut limits = Limits {
+            speed: most(tool_speed, tool),
+            acceleration: most(self.config.tool_acceleration_m_s2, tool),
+            jerk: f64::INFINITY,
+        };
+        for (joint, (a, b)) in self.robot.joints().iter().zip(a.iter().zip(&b)) {
+            let length = (a - b).abs();
+            limits.speed = limits.speed.min(most(joint.velocity() * self.config.speed, length));
+            limits.acceleration = limits.acceleration.min(most(self.robot.acceleration(), length));
+            limits.jerk = limits.jerk.min(most(self.robot.jerk(), length));
+        }
+        // A piece that ends where it begins bounds nothing; its samples will.
+        let unbounded = 1.0 / self.config.period_s;
+        Limits {
+            speed: limits.speed.min(unbounded),
+            acceleration: limits.acceleration.min(unbounded.powi(2)),
+            jerk: limits.jerk.min(unbounded.powi(3)),
+        }
     }
 
-    /// By what factor the samples are too fast: the largest speed over its limit, or the
-    /// root of the largest acceleration over its limit.
+    /// By what factor the samples are too fast: the largest speed over its limit, the root of
+    /// the largest acceleration over its limit, the cube root of the largest jerk over its.
     fn excess(&self, samples: &[Vec<f64>], tool_speed: f64) -> f64 {
         let period = self.config.period_s;
+        let (acceleration, jerk) = (self.robot.acceleration(), self.robot.jerk());
         let mut excess: f64 = 0.0;
         for (i, joint) in self.robot.joints().iter().enumerate() {
-            let mut before = 0.0;
-            let steps = samples.windows(2).map(|pair| (pair[1][i] - pair[0][i]) / period);
-            // The arm rests before the first and after the last sample.
-            for speed in steps.chain([0.0]) {
-                let acceleration = (speed - before).abs() / period;
+            let most = joint.velocity() * self.config.speed;
+            for [first, second, third] in differences(samples, i, period) {
                 excess = excess
-                    .max(speed.abs() / (joint.velocity() * self.config.speed))
-                    .max((acceleration / self.robot.acceleration()).sqrt());
-                before = speed;
+                    .max(first.abs() / most)
+                    .max((second.abs() / acceleration).sqrt())
+                    .max((third.abs() / jerk).cbrt());
             }
         }
-        let tips: Vec<_> = samples.iter().map(|q| self.tool(q)).collect();
-        let fastest =
-            tips.windows(2).map(|pair| pair[0].metric_distance(&pair[1])).fold(0.0, f64::max);
-        excess.max(fastest / period / tool_speed)
+        let tips: Vec<Vector3<f64>> = samples.iter().map(|q| self.tool(q)).collect();
+        let mut before = Vector3::zeros();
+        for pair in tips.windows(2) {
+            let velocity = (pair[1] - pair[0]) / period;
+            let change = (velocity - before).norm() / period;
+            excess = excess
+                .max(velocity.norm() / tool_speed)
+                .max((change / self.config.tool_acceleration_m_s2).sqrt());
+            before = velocity;
+        }
+        excess
     }
 
-    fn tool(&self, q: &[f64]) -> nalgebra::Vector3<f64> {
+    fn tool(&self, q: &[f64]) -> Vector3<f64> {
         self.robot.tool_pose(q).translation.vector
     }
 }
 
-/// From 0 to 1 with speed and acceleration zero at both ends.
-fn quintic(u: f64) -> f64 {
-    u * u * u * (10.0 + u * (6.0 * u - 15.0))
+/// Speed, acceleration and jerk of joint `i` from sample to sample; before the first and after
+/// the last it rests.
+pub(crate) fn differences(
+    samples: &[Vec<f64>],
+    i: usize,
+    period: f64,
+) -> impl Iterator<Item = [f64; 3]> {
+    let steps = samples.windows(2).map(move |pair| (pair[1][i] - pair[0][i]) / period);
+    steps.chain([0.0, 0.0]).scan([0.0; 2], move |before, first| {
+        let second = (first - before[0]) / period;
+        let third = (second - before[1]) / period;
+        *before = [first, second];
+        Some([first, second, third])
+    })
 }
 
 fn mix(a: &[f64], b: &[f64], u: f64) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect()
+    // Both ends exactly, and between them not a rounding further: they may lie at a limit.
+    let between = |(a, b): (&f64, &f64)| ((1.0 - u) * a + u * b).clamp(a.min(*b), a.max(*b));
+    a.iter().zip(b).map(between).collect()
 }
 
-/// The Catmull-Rom spline through equally spaced postures at `u` in 0..=1.
-fn spline(path: &[Vec<f64>], u: f64) -> Vec<f64> {
-    let last = path.len() - 1;
-    if last == 0 {
-        return path[0].clone();
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+    use seeone_core::random::{Generator, generator, uniform};
+    use seeone_core::robot::RobotOptions;
+    use std::path::Path;
+
+    fn ur5(rng: &mut Generator) -> RobotModel {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5-ag95.urdf");
+        let options = RobotOptions {
+            acceleration: uniform(rng, 1.0, 40.0),
+            jerk: uniform(rng, 10.0, 2000.0),
+            ..RobotOptions::default()
+        };
+        RobotModel::from_urdf(&file, &options).unwrap()
     }
-    let at = (u * last as f64).clamp(0.0, last as f64);
-    let k = (at.floor() as usize).min(last - 1);
-    let t = at - k as f64;
-    let (a, b) = (&path[k], &path[k + 1]);
-    (0..a.len())
-        .map(|i| {
-            // Beyond an end the path goes on straight.
-            let before = if k > 0 { path[k - 1][i] } else { 2.0 * a[i] - b[i] };
-            let after = if k + 2 <= last { path[k + 2][i] } else { 2.0 * b[i] - a[i] };
-            let (leaving, arriving) = (0.5 * (b[i] - before), 0.5 * (after - a[i]));
-            let (t2, t3) = (t * t, t * t * t);
-            a[i] * (2.0 * t3 - 3.0 * t2 + 1.0)
-                + leaving * (t3 - 2.0 * t2 + t)
-                + b[i] * (3.0 * t2 - 2.0 * t3)
-                + arriving * (t3 - t2)
-        })
-        .collect()
+
+    fn draw(robot: &RobotModel, rng: &mut Generator) -> Vec<f64> {
+        robot.joints().iter().map(|j| uniform(rng, j.lower(), j.upper())).collect()
+    }
+
+    /// A line as the planner has them: near postures that go the same way, bending a little.
+    fn bent(robot: &RobotModel, rng: &mut Generator) -> Vec<Vec<f64>> {
+        let (start, count) = (draw(robot, rng), 5 + (uniform(rng, 0.0, 40.0) as usize));
+        let mut ways = || -> Vec<f64> { (0..6).map(|_| uniform(rng, -0.01, 0.01)).collect() };
+        let (way, bend) = (ways(), ways());
+        let posture = |k: usize| {
+            let joints = robot.joints().iter().enumerate();
+            let at = |(i, joint): (usize, &seeone_core::robot::Joint)| {
+                let along = k as f64;
+                let bent = (0.2 * along).sin() * bend[i];
+                (start[i] * 0.8 + way[i] * along + bent).clamp(joint.lower(), joint.upper())
+            };
+            joints.map(at).collect()
+        };
+        (0..count).map(posture).collect()
+    }
+
+    #[test]
+    fn twenty_thousand_trajectories_keep_every_limit_and_arrive() {
+        let mut rng = generator(1, "trajectories");
+        for round in 0..20 {
+            let robot = ur5(&mut rng);
+            let config = MotionConfig {
+                speed: uniform(&mut rng, 0.2, 1.0),
+                tool_acceleration_m_s2: uniform(&mut rng, 0.5, 20.0),
+                ..MotionConfig::default()
+            };
+            let timing = Timing { robot: &robot, config: &config };
+            for case in 0..1000 {
+                let speed = uniform(&mut rng, 0.1, 2.0);
+                let (trajectory, end) = if case % 4 == 0 {
+                    let path = bent(&robot, &mut rng);
+                    (timing.line(&[(&path, speed)]), path[path.len() - 1].clone())
+                } else {
+                    let path = vec![draw(&robot, &mut rng), draw(&robot, &mut rng)];
+                    (timing.corners(&path, speed), path[1].clone())
+                };
+                let samples = &trajectory.positions;
+                let last = &samples[samples.len() - 1];
+                assert!(
+                    last.iter().zip(&end).all(|(a, b)| (a - b).abs() <= 1e-8),
+                    "{round} {case}"
+                );
+                for (i, joint) in robot.joints().iter().enumerate() {
+                    let inside = |q: f64| q >= joint.lower() - 1e-9 && q <= joint.upper() + 1e-9;
+                    assert!(samples.iter().all(|q| inside(q[i])), "{round} {case}");
+                    for [first, second, third] in differences(samples, i, trajectory.period_s) {
+                        assert!(first.abs() <= config.speed * joint.velocity() + 1e-9);
+                        assert!(second.abs() <= robot.acceleration() + 1e-9);
+                        assert!(third.abs() <= robot.jerk() + 1e-9, "{third}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn no_move_takes_longer_than_ruckigs_slowest_joint_and_a_period() {
+        use rsruckig::prelude::{InputParameter, Ruckig, ThrowErrorHandler, Trajectory};
+        let mut rng = generator(2, "trajectories");
+        let robot = ur5(&mut rng);
+        let config =
+            MotionConfig { speed: 1.0, tool_acceleration_m_s2: 1e6, ..MotionConfig::default() };
+        let timing = Timing { robot: &robot, config: &config };
+        let mut ruckig = Ruckig::<6, ThrowErrorHandler>::new(None, config.period_s);
+        for _ in 0..300 {
+            let (a, b) = (draw(&robot, &mut rng), draw(&robot, &mut rng));
+            let ours = timing.corners(&[a.clone(), b.clone()], 1e6).duration_s();
+            let mut input = InputParameter::new(None);
+            for (i, joint) in robot.joints().iter().enumerate() {
+                (input.current_position[i], input.target_position[i]) = (a[i], b[i]);
+                input.max_velocity[i] = joint.velocity();
+                input.max_acceleration[i] = robot.acceleration();
+                input.max_jerk[i] = robot.jerk();
+            }
+            let mut trajectory = Trajectory::new(None);
+            ruckig.calculate(&input, &mut trajectory).unwrap();
+            let theirs = trajectory.get_duration();
+            assert!(
+                ours >= theirs - 1e-9 && ours <= theirs + 2.0 * config.period_s,
+                "{ours} {theirs}"
+            );
+        }
+    }
 }

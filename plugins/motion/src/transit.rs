@@ -1,12 +1,13 @@
 //! Free-space moves between two postures.
 
 use crate::MotionConfig;
-use crate::checker::{Checker, Contact, Rules};
 use crate::failure::Failure;
 use crate::rrt::{Search, distance};
 use rand::RngExt;
+use seeone_collision::{Checker, Rules};
 use seeone_core::random::Generator;
 use seeone_core::robot::RobotModel;
+use seeone_plugin::Contact;
 
 /// How far beyond its two ends a planned transit may move a joint, radians.
 const DETOUR_RAD: f64 = 1.6;
@@ -39,7 +40,7 @@ pub(crate) fn transit(
     let rules = Rules { fingers_may_touch: false, held_radius_m };
     let blocked = |a: &[f64], b: &[f64]| first_contact(config, checker, &rules, a, b);
     for (end, name) in [(start, "start"), (goal, "end")] {
-        if let Some(contact) = checker.contact(end, &rules) {
+        if let Some(contact) = checker.contact_under(end, &rules) {
             return Err(Failure::Infeasible(format!("at its {name} {contact}")));
         }
     }
@@ -57,7 +58,7 @@ pub(crate) fn transit(
             (low.max(joint.lower()), high.min(joint.upper()))
         })
         .collect();
-    let free = |a: &[f64], b: &[f64]| blocked(a, b).is_none();
+    let free = |a: &[f64], b: &[f64]| is_free(config, checker, &rules, a, b);
     let search = Search { bounds: &bounds, free: &free, extensions: config.extensions };
     match search.connect(start, goal, rng) {
         Some(path) => Ok(shortened(path, config.shortcuts, &free, rng)),
@@ -68,6 +69,29 @@ pub(crate) fn transit(
     }
 }
 
+/// Whether the straight line from `a` to `b` is free, `a` itself left out. The middle is looked at
+/// first, then the middles of what is left: that is where contact is found soonest.
+fn is_free(config: &MotionConfig, checker: &Checker, rules: &Rules, a: &[f64], b: &[f64]) -> bool {
+    let steps = steps(config, a, b);
+    let strides = std::iter::successors(Some(steps.next_power_of_two()), |stride| {
+        (*stride > 1).then_some(stride / 2)
+    });
+    // Odd multiples of each stride: every step once.
+    let mut order = strides.flat_map(|stride| (stride..=steps).step_by(2 * stride));
+    order.all(|k| checker.contact_under(&on(a, b, k as f64 / steps as f64), rules).is_none())
+}
+
+/// Steps between which nothing is looked at.
+fn steps(config: &MotionConfig, a: &[f64], b: &[f64]) -> usize {
+    let furthest = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    (furthest / config.joint_step_rad).ceil().max(1.0) as usize
+}
+
+/// The posture `share` of the way from `a` to `b`.
+fn on(a: &[f64], b: &[f64], share: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
+}
+
 /// The first contact on the straight line from `a` to `b`, `a` itself left out.
 fn first_contact(
     config: &MotionConfig,
@@ -76,13 +100,8 @@ fn first_contact(
     a: &[f64],
     b: &[f64],
 ) -> Option<Contact> {
-    let furthest = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let steps = (furthest / config.joint_step_rad).ceil().max(1.0) as usize;
-    (1..=steps).find_map(|k| {
-        let share = k as f64 / steps as f64;
-        let q: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect();
-        checker.contact(&q, rules)
-    })
+    let steps = steps(config, a, b);
+    (1..=steps).find_map(|k| checker.contact_under(&on(a, b, k as f64 / steps as f64), rules))
 }
 
 /// The path with corners cut where the straight line is free.
@@ -101,12 +120,8 @@ fn shortened(
         if i > j {
             std::mem::swap(&mut i, &mut j);
         }
-        let mut on = |piece: usize| {
-            let share = rng.random::<f64>();
-            let (a, b) = (&path[piece], &path[piece + 1]);
-            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>()
-        };
-        let (a, b) = (on(i), on(j));
+        let mut drawn = |piece: usize| on(&path[piece], &path[piece + 1], rng.random::<f64>());
+        let (a, b) = (drawn(i), drawn(j));
         if i == j {
             continue;
         }

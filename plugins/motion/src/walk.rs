@@ -2,11 +2,11 @@
 
 use crate::MotionConfig;
 use crate::candidates::limit_cost;
-use crate::checker::{Checker, Rules};
 use crate::failure::{Failure, StageFailure};
 use crate::hand::Hand;
-use crate::line::follow;
+use crate::line::Line;
 use nalgebra::{Translation3, Vector3};
+use seeone_collision::{Checker, Rules};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
@@ -61,7 +61,7 @@ impl<'a> Walker<'a> {
     /// What it would touch.
     pub(crate) fn stands(&self, q: &[f64]) -> Result<(), Failure> {
         let rules = Rules { fingers_may_touch: true, held_radius_m: None };
-        match self.checker(&self.hand).contact(q, &rules) {
+        match self.checker(&self.hand).contact_under(q, &rules) {
             Some(contact) => Err(Failure::Infeasible(contact.to_string())),
             None => Ok(()),
         }
@@ -110,7 +110,7 @@ impl<'a> Walker<'a> {
     }
 
     fn checker(&self, hand: &Hand) -> Checker<'a> {
-        Checker::new(self.robot, self.config, self.obstacles, hand)
+        Checker::new(self.robot, self.config.margins(), self.obstacles, hand.opening_m)
     }
 
     /// A line that touches nothing but, with the fingers, near the key poses.
@@ -129,10 +129,11 @@ impl<'a> Walker<'a> {
                 self.keys.iter().map(|key| (key.pose.translation.vector - tool).norm());
             let near = distances.any(|distance| distance <= self.config.finger_zone_m + 1e-6);
             let rules = Rules { fingers_may_touch: near, held_radius_m: None };
-            checker.contact(q, &rules).map(|contact| contact.to_string())
+            checker.contact_under(q, &rules).map(|contact| contact.to_string())
         };
-        follow(self.robot, self.kinematics, start, target, self.config.line_step_m, &fault)
-            .map_err(|failure| failure.at(&key.stage, purpose))
+        let (robot, kinematics, step_m) = (self.robot, self.kinematics, self.config.line_step_m);
+        let line = Line { robot, kinematics, start, target, step_m, fault: &fault };
+        line.follow().map_err(|failure| failure.at(&key.stage, purpose))
     }
 }
 

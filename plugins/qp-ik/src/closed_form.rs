@@ -12,9 +12,13 @@ use seeone_core::robot::RobotModel;
 /// what is left.
 const AXIS_TOLERANCE: f64 = 0.02;
 const MEETING_TOLERANCE_M: f64 = 0.003;
-/// By how much a distance may be out of reach and still be taken as stretched out
-/// (square metres in the arm, where squares are compared; unitless at the wrist).
-const SLACK: f64 = 1e-6;
+/// By how much a distance may be out of reach and still be taken as stretched out (metres at
+/// the shoulder, square metres in the arm, where squares are compared, unitless at the wrist):
+/// rounding, where the geometry is exact, and else what a calibration makes of it.
+const EXACT_SLACK: f64 = 1e-6;
+const CALIBRATED_SLACK: f64 = 1e-2;
+/// Axes that are this parallel, and meet this nearly, are so exactly.
+const EXACT: f64 = 1e-9;
 
 /// The geometry of a six-joint arm of the UR's structure, at zero position in `world`.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +33,7 @@ pub struct ClosedForm {
     /// Where axes 5 and 6 meet, in the tool frame.
     wrist_in_tool: Point3<f64>,
     tool_rotation: UnitQuaternion<f64>,
+    slack: f64,
 }
 
 impl ClosedForm {
@@ -48,7 +53,11 @@ impl ClosedForm {
         if !(parallel(2) && parallel(3) && crossing(0, 1) && crossing(3, 4) && crossing(4, 5)) {
             return None;
         }
-        let wrist = meeting_point(&point(4), &axes[4], &point(5), &axes[5])?;
+        let (wrist, miss) = meeting_point(&point(4), &axes[4], &point(5), &axes[5]);
+        if miss > MEETING_TOLERANCE_M {
+            return None;
+        }
+        let skew = (2..4).map(|i| axes[1].cross(&axes[i]).norm()).fold(miss, f64::max);
         let tool = robot.tool_pose(&zero);
         Some(Self {
             axes,
@@ -62,6 +71,7 @@ impl ClosedForm {
             ],
             wrist_in_tool: tool.inverse() * wrist,
             tool_rotation: tool.rotation,
+            slack: if skew < EXACT { EXACT_SLACK } else { CALIBRATED_SLACK },
         })
     }
 
@@ -75,11 +85,11 @@ impl ClosedForm {
         let turned = target.rotation * self.tool_rotation.inverse();
         let along: f64 = self.offsets.iter().map(|offset| h2.dot(offset)).sum();
         let mut solutions = Vec::with_capacity(8);
-        for q1 in projecting(h2, &back(h1), &wrist, along, SLACK) {
+        for q1 in projecting(h2, &back(h1), &wrist, along, self.slack) {
             let shoulder = UnitQuaternion::from_axis_angle(h1, q1);
             let second = shoulder * h2.into_inner();
             let onto = second.dot(&(turned * h6.into_inner()));
-            for q5 in projecting(h2, h5, h6, onto, SLACK) {
+            for q5 in projecting(h2, h5, h6, onto, self.slack) {
                 let wrist_two = UnitQuaternion::from_axis_angle(h5, q5);
                 let from = turned.inverse() * second;
                 let to = wrist_two.inverse() * h2.into_inner();
@@ -105,7 +115,7 @@ impl ClosedForm {
         let h2 = &self.axes[1];
         let flat = |v: &Vector3<f64>| v - h2.into_inner() * h2.dot(v);
         let (upper, fore, reach) = (flat(&self.offsets[1]), flat(&self.offsets[2]), flat(reach));
-        for q3 in reaching(h2, &upper, &fore, reach.norm(), SLACK) {
+        for q3 in reaching(h2, &upper, &fore, reach.norm(), self.slack) {
             let folded = upper + turn(h2, q3, &fore);
             found(between(h2, &folded, &reach).unwrap_or(0.0), q3);
         }
@@ -122,17 +132,17 @@ fn perpendicular(axis: &UnitVector3<f64>) -> Vector3<f64> {
     axis.cross(&Vector3::ith(least, 1.0)).normalize()
 }
 
-/// The middle of the shortest connection of two lines, if it is short enough.
+/// The middle of the shortest connection of two lines, and its length.
 fn meeting_point(
     a: &Point3<f64>,
     along_a: &UnitVector3<f64>,
     b: &Point3<f64>,
     along_b: &UnitVector3<f64>,
-) -> Option<Point3<f64>> {
+) -> (Point3<f64>, f64) {
     let normal = along_a.cross(along_b);
     let between = b - a;
     let area = normal.norm_squared();
     let on_a = a + along_a.into_inner() * (between.cross(along_b).dot(&normal) / area);
     let on_b = b + along_b.into_inner() * (between.cross(along_a).dot(&normal) / area);
-    ((on_b - on_a).norm() < MEETING_TOLERANCE_M).then(|| nalgebra::center(&on_a, &on_b))
+    (nalgebra::center(&on_a, &on_b), (on_b - on_a).norm())
 }

@@ -27,9 +27,9 @@ impl Default for IkConfig {
     fn default() -> Self {
         Self {
             closed_form: true,
-            restarts: 20,
+            restarts: 100,
             max_iterations: 60,
-            step_rad: 0.3,
+            step_rad: 0.6,
             damping: 1e-6,
             posture: 1e-8,
         }

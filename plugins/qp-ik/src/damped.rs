@@ -3,23 +3,22 @@
 use crate::IkConfig;
 use crate::descent::Step;
 use crate::linearised::Linearised;
-use nalgebra::{DVector, Matrix6};
+use crate::normal::Normal;
+use nalgebra::DVector;
 
-/// Steps `J^T (J J^T + damping I)^-1 e`, shortened to the limits (Wampler 1986).
-pub(crate) struct Damped {
-    damping: f64,
-}
+/// Steps `(J^T J + damping I)^-1 J^T e`, shortened to the limits (Wampler 1986). Of what is
+/// near it knows nothing.
+pub(crate) struct Damped(Normal);
 
 impl Step for Damped {
-    fn new(config: &IkConfig) -> Self {
-        Self { damping: config.damping }
+    fn new(config: &IkConfig, joints: usize, _pairs: usize) -> Self {
+        Self(Normal::new(config, joints))
     }
 
-    fn step(&self, problem: &Linearised) -> Option<DVector<f64>> {
-        let damping = self.damping + 1e-3 * problem.error.norm_squared();
-        let transposed = problem.jacobian.transpose();
-        let gram: Matrix6<f64> = &problem.jacobian * &transposed + Matrix6::identity() * damping;
-        let step = transposed * gram.cholesky()?.solve(&problem.error);
-        Some(step.zip_zip_map(&problem.lower, &problem.upper, f64::clamp))
+    fn step(&mut self, problem: &Linearised, step: &mut DVector<f64>) -> bool {
+        self.0.set(problem);
+        let solved = self.0.solve(step);
+        step.zip_zip_apply(&problem.lower, &problem.upper, |d, low, high| *d = d.clamp(low, high));
+        solved
     }
 }

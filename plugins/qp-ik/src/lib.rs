@@ -5,14 +5,18 @@
 //! damped normal equations. Descent from one start ends in a local minimum at a joint
 //! limit for one target in seven, whatever takes the steps, so the starts come from the
 //! closed form where the arm has three parallel joints and an intersecting wrist pair
-//! (the UR family), and from seeded draws otherwise.
+//! (the UR family), and from seeded draws otherwise. Of several answers the one is taken that
+//! touches nothing, is near the start, away from limits and away from singularities.
 
 mod closed_form;
 mod config;
 mod damped;
 mod descent;
 mod linearised;
+mod normal;
+mod program;
 mod quadratic;
+mod reason;
 mod seeds;
 mod solver;
 mod subproblem;
@@ -22,4 +26,5 @@ mod tests;
 
 pub use closed_form::ClosedForm;
 pub use config::IkConfig;
+pub use program::{Problem, QuadraticProgram};
 pub use solver::{DampedLeastSquares, QpIk};

@@ -1,22 +1,25 @@
 //! The two plugins: starts, descents, and the choice among what they find.
 
 use crate::damped::Damped;
-use crate::descent::{Posture, Step, descend};
-use crate::quadratic::QuadraticProgram;
-use crate::{ClosedForm, IkConfig, seeds};
+use crate::descent::{Miss, Step, Workspace};
+use crate::quadratic::Quadratic;
+use crate::seeds::{Excess, Known};
+use crate::{ClosedForm, IkConfig, reason, seeds};
 use seeone_core::robot::RobotModel;
-use seeone_plugin::{IkOutcome, IkQuery, IkStatus, Kinematics, PluginError, Setup};
+use seeone_plugin::{Contact, IkOutcome, IkQuery, IkStatus, Kinematics, PluginError, Setup};
+use std::sync::{Mutex, PoisonError};
 
 /// Inverse kinematics by quadratic programs (clarabel).
-pub struct QpIk(Descents<QuadraticProgram>);
+pub struct QpIk(Descents<Quadratic>);
 
 /// Inverse kinematics by damped least squares.
 pub struct DampedLeastSquares(Descents<Damped>);
 
 struct Descents<S> {
     config: IkConfig,
-    step: S,
     seed: u64,
+    /// Workspaces that nobody is using. What was computed in one before changes no answer.
+    spare: Mutex<Vec<Workspace<S>>>,
 }
 
 impl QpIk {
@@ -69,105 +72,157 @@ impl Kinematics for DampedLeastSquares {
 
 impl<S: Step> Descents<S> {
     fn new(config: IkConfig, seed: u64) -> Result<Self, PluginError> {
-        let config = config.checked()?;
-        Ok(Self { step: S::new(&config), config, seed })
+        Ok(Self { config: config.checked()?, seed, spare: Mutex::default() })
     }
 
     fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError> {
-        let near = checked(robot, query)?;
-        let mut search = Search { best: None, iterations: 0 };
-        if query.continuous {
-            self.try_start(robot, query, &near, &mut search);
-            return Ok(search.outcome(robot, &near, query));
+        check(robot, query)?;
+        let mut workspace = self.take(robot.joints().len(), query.clearance.is_some());
+        let mut search = Search::new(robot, query, &self.config);
+        self.search(&mut workspace, &mut search);
+        if query.clearance.is_some() && !search.is_solved() {
+            // Then let it say what is in the way.
+            search.keeps_apart = false;
+            self.search(&mut workspace, &mut search);
         }
-        let geometry = if self.config.closed_form { ClosedForm::of(robot) } else { None };
-        let known = geometry.as_ref();
-        let known = known.map_or(vec![], |g| seeds::closed_form(g, robot, query.target, &near));
-        for start in known.iter().chain([&near]) {
-            if self.try_start(robot, query, start, &mut search) {
-                return Ok(search.outcome(robot, &near, query));
-            }
-        }
-        // The closed form finds every solution there is; more starts would find no other.
-        let restarts = if geometry.is_some() { 0 } else { self.config.restarts };
-        for start in seeds::random(robot, self.seed, restarts) {
-            if self.try_start(robot, query, &start, &mut search) {
-                break;
-            }
-        }
-        Ok(search.outcome(robot, &near, query))
+        self.give_back(workspace);
+        Ok(search.outcome())
     }
 
-    /// Descends from `start` and says whether that solved it.
-    fn try_start(
-        &self,
-        robot: &RobotModel,
-        query: &IkQuery,
-        start: &[f64],
-        search: &mut Search,
-    ) -> bool {
-        let (found, iterations) = descend(robot, query.target, start, &self.step, &self.config);
-        search.iterations += iterations;
-        let solved = found.error() <= 1.0;
-        if search.best.as_ref().is_none_or(|best| found.error() < best.error()) {
-            search.best = Some(found);
+    /// Descends from one start after the other until an answer touches nothing.
+    fn search(&self, workspace: &mut Workspace<S>, search: &mut Search) {
+        let (robot, query) = (search.robot, search.query);
+        if query.continuous {
+            search.start(workspace, query.near);
+            return;
         }
-        solved
+        let geometry = if self.config.closed_form { ClosedForm::of(robot) } else { None };
+        if let Some(geometry) = geometry {
+            let known = seeds::closed_form(&geometry, robot, query.target, query.near);
+            let Known { seeds, excess } = known;
+            search.excess = if seeds.is_empty() { excess } else { None };
+            // The closed form finds every solution there is; more starts would find no other.
+            let ended = seeds.iter().any(|start| search.start(workspace, start));
+            if !(ended || search.is_solved()) {
+                search.start(workspace, query.near);
+            }
+        } else if !search.start(workspace, query.near) {
+            let mut restarts = seeds::random(robot, self.seed, self.config.restarts);
+            restarts.any(|start| search.start(workspace, &start));
+        }
+    }
+
+    fn take(&self, joints: usize, keeps_clear: bool) -> Workspace<S> {
+        let mut spare = self.spare.lock().unwrap_or_else(PoisonError::into_inner);
+        match spare.iter().position(|workspace| workspace.fits(joints, keeps_clear)) {
+            Some(index) => spare.swap_remove(index),
+            None => Workspace::new(&self.config, joints, keeps_clear),
+        }
+    }
+
+    fn give_back(&self, workspace: Workspace<S>) {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner).push(workspace);
     }
 }
 
 /// What has been found so far.
-struct Search {
-    best: Option<Posture>,
+struct Search<'a> {
+    robot: &'a RobotModel,
+    query: &'a IkQuery<'a>,
+    config: &'a IkConfig,
+    /// Whether descents keep near bodies apart.
+    keeps_apart: bool,
+    /// The best posture that is not solved, or is and touches nothing.
+    best: Option<(Miss, Vec<f64>)>,
+    /// The first solution that touches something, and what.
+    touching: Option<(Miss, Vec<f64>, Contact)>,
+    /// How many solutions touch something.
+    touches: usize,
+    /// Which limit keeps every exact solution away.
+    excess: Option<Excess>,
     iterations: usize,
 }
 
-impl Search {
-    fn outcome(self, robot: &RobotModel, near: &[f64], query: &IkQuery) -> IkOutcome {
-        let best = self.best.unwrap_or_else(|| Posture::new(robot, near.to_vec(), query.target));
-        let solved = best.error() <= 1.0;
-        IkOutcome {
-            status: if solved { IkStatus::Solved } else { IkStatus::Infeasible },
-            position_error_m: best.position_error_m,
-            rotation_error_rad: best.rotation_error_rad,
+impl<'a> Search<'a> {
+    fn new(robot: &'a RobotModel, query: &'a IkQuery<'a>, config: &'a IkConfig) -> Self {
+        let (best, touching, excess) = (None, None, None);
+        let (keeps_apart, touches, iterations) = (true, 0, 0);
+        Self { robot, query, config, keeps_apart, best, touching, touches, excess, iterations }
+    }
+
+    /// Descends from `start` and says whether that ends the search.
+    fn start<S: Step>(&mut self, workspace: &mut Workspace<S>, start: &[f64]) -> bool {
+        let (miss, iterations) =
+            workspace.descend(self.robot, self.query, start, self.keeps_apart, self.config);
+        self.iterations += iterations;
+        let found = &workspace.best;
+        if miss.is_solved()
+            && let Some(contact) = self.query.clearance.and_then(|c| c.contact(found))
+        {
+            self.touches += 1;
+            self.touching.get_or_insert_with(|| (miss, found.clone(), contact));
+            return false;
+        }
+        if self.best.as_ref().is_none_or(|(least, _)| miss.error() < least.error()) {
+            self.best = Some((miss, found.clone()));
+        }
+        miss.is_solved()
+    }
+
+    fn is_solved(&self) -> bool {
+        self.touching.is_some() || self.best.as_ref().is_some_and(|(miss, _)| miss.is_solved())
+    }
+
+    fn outcome(self) -> IkOutcome {
+        let answer = |status, miss: Miss, joints, contact, reason| IkOutcome {
+            status,
+            joints,
+            position_error_m: miss.position_m,
+            rotation_error_rad: miss.rotation_rad,
             iterations: self.iterations,
-            reason: (!solved).then(|| reason(robot, &best, query.continuous)),
-            joints: best.joints,
+            contact,
+            reason,
+        };
+        match (self.best, self.touching) {
+            (Some((miss, joints)), _) if miss.is_solved() => {
+                answer(IkStatus::Solved, miss, joints, None, None)
+            }
+            (_, Some((miss, joints, contact))) => {
+                let reason = reason::touching(&contact, self.touches);
+                answer(IkStatus::Solved, miss, joints, Some(contact), Some(reason))
+            }
+            (Some((miss, joints)), None) => {
+                let reason = reason::unsolved(self.robot, self.query, &joints, miss, self.excess);
+                answer(IkStatus::Infeasible, miss, joints, None, Some(reason))
+            }
+            (None, None) => unreachable!("a search has at least one start"),
         }
     }
 }
 
-fn reason(robot: &RobotModel, best: &Posture, continuous: bool) -> String {
-    let millimetres = 1e3 * best.position_error_m;
-    let degrees = best.rotation_error_rad.to_degrees();
-    let branch = if continuous { " on this branch" } else { "" };
-    let joints = robot.joints().iter().zip(&best.joints);
-    let stuck: Vec<&str> = joints
-        .filter(|(joint, q)| (*q - joint.lower()).min(joint.upper() - *q) < 1e-3)
-        .map(|(joint, _)| joint.name())
-        .collect();
-    let limits = match stuck.as_slice() {
-        [] => String::new(),
-        names => format!(", with {} at the limit", names.join(", ")),
-    };
-    format!(
-        "the nearest posture{branch} is {millimetres:.1} mm and {degrees:.1} degrees off{limits}"
-    )
-}
-
-/// The start moved within the limits.
-fn checked(robot: &RobotModel, query: &IkQuery) -> Result<Vec<f64>, PluginError> {
+/// # Errors
+/// [`PluginError::Input`] for what no posture can be sought for or from.
+fn check(robot: &RobotModel, query: &IkQuery) -> Result<(), PluginError> {
     let told = |cause: String| Err(PluginError::Input(cause));
     if !query.target.to_homogeneous().iter().all(|v| v.is_finite()) {
         return told("the target pose is not finite".into());
+    }
+    if query.period_s.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
+        return told("the period is no time".into());
     }
     let (given, wanted) = (query.near.len(), robot.joints().len());
     if given != wanted {
         return told(format!("the start has {given} positions, the arm {wanted} joints"));
     }
-    if !query.near.iter().all(|v| v.is_finite()) {
-        return told("the start is not finite".into());
+    let mut joints = robot.joints().iter().zip(query.near);
+    match joints.find(|(joint, q)| !joint.allows(**q)) {
+        None => Ok(()),
+        Some((joint, q)) if q.is_finite() => told(format!(
+            "the start: {} at {q:.4} rad is outside {:.4}..{:.4}",
+            joint.name(),
+            joint.lower(),
+            joint.upper()
+        )),
+        Some((joint, _)) => told(format!("the start: {} is not finite", joint.name())),
     }
-    let joints = robot.joints().iter().zip(query.near);
-    Ok(joints.map(|(joint, q)| q.clamp(joint.lower(), joint.upper())).collect())
 }

@@ -2,19 +2,32 @@
 
 use super::*;
 use nalgebra::{Translation3, Vector3};
+use seeone_collision::{Checker, Margins};
 use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::random::{generator, uniform};
-use seeone_core::robot::{RobotModel, RobotOptions};
-use seeone_plugin::{IkOutcome, IkQuery, IkStatus, Kinematics, PluginError};
-use std::path::Path;
+use seeone_core::robot::{RobotModel, RobotOptions, Shape, Solid};
+use seeone_plugin::motion::Obstacle;
+use seeone_plugin::{Clearance, IkOutcome, IkQuery, IkStatus, Kinematics, PluginError};
+use std::path::{Path, PathBuf};
 
 const HOME: [f64; 6] = [0.0, -1.5, 1.5, -1.5, -1.5, 0.0];
 
+fn shipped(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots").join(name)
+}
+
+fn robot(name: &str) -> RobotModel {
+    RobotModel::from_urdf(&shipped(name), &RobotOptions::default()).unwrap()
+}
+
+fn ur5_at(base: Pose) -> RobotModel {
+    let options = RobotOptions { base, ..RobotOptions::default() };
+    RobotModel::from_urdf(&shipped("ur5-ag95.urdf"), &options).unwrap()
+}
+
 fn ur5() -> RobotModel {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5-ag95.urdf");
-    let base = Pose::new(Vector3::new(0.1, -0.2, 0.3), Vector3::new(0.3, 0.1, -0.4));
-    RobotModel::from_urdf(&file, &RobotOptions { base, ..RobotOptions::default() }).unwrap()
+    ur5_at(Pose::new(Vector3::new(0.1, -0.2, 0.3), Vector3::new(0.3, 0.1, -0.4)))
 }
 
 fn draw(robot: &RobotModel, rng: &mut impl rand::Rng) -> Vec<f64> {
@@ -22,7 +35,7 @@ fn draw(robot: &RobotModel, rng: &mut impl rand::Rng) -> Vec<f64> {
 }
 
 fn solve(solver: &dyn Kinematics, robot: &RobotModel, target: &Pose) -> IkOutcome {
-    solver.solve(robot, &IkQuery { target, near: &HOME, continuous: false }).unwrap()
+    solver.solve(robot, &IkQuery::new(target, &HOME)).unwrap()
 }
 
 fn qp() -> QpIk {
@@ -30,13 +43,13 @@ fn qp() -> QpIk {
 }
 
 /// Solves `count` reachable poses and gives the share of those it solved.
-fn share(solver: &dyn Kinematics, count: usize) -> f64 {
-    let robot = ur5();
+fn share(robot: &RobotModel, solver: &dyn Kinematics, count: usize) -> f64 {
     let mut rng = generator(7, "targets");
     let mut solved = 0;
     for _ in 0..count {
-        let target = robot.tool_pose(&draw(&robot, &mut rng));
-        let outcome = solve(solver, &robot, &target);
+        let target = robot.tool_pose(&draw(robot, &mut rng));
+        let query = IkQuery::new(&target, robot.home());
+        let outcome = solver.solve(robot, &query).unwrap();
         if outcome.status != IkStatus::Solved {
             continue;
         }
@@ -49,15 +62,124 @@ fn share(solver: &dyn Kinematics, count: usize) -> f64 {
 
 #[test]
 fn every_reachable_pose_is_solved() {
-    assert_eq!(share(&qp(), 1000), 1.0);
-    assert_eq!(share(&DampedLeastSquares::new(IkConfig::default(), 1).unwrap(), 1000), 1.0);
+    assert_eq!(share(&ur5(), &qp(), 1000), 1.0);
+    assert_eq!(share(&ur5(), &DampedLeastSquares::new(IkConfig::default(), 1).unwrap(), 1000), 1.0);
 }
 
 #[test]
-fn an_arm_without_a_closed_form_is_solved_from_seeded_starts() {
+fn without_its_closed_form_every_reachable_pose_is_solved_from_seeded_starts() {
     let config = IkConfig { closed_form: false, ..IkConfig::default() };
-    assert!(share(&QpIk::new(config.clone(), 1).unwrap(), 200) >= 0.99);
-    assert!(share(&DampedLeastSquares::new(config, 1).unwrap(), 200) >= 0.99);
+    assert_eq!(share(&ur5(), &QpIk::new(config.clone(), 1).unwrap(), 1000), 1.0);
+    assert_eq!(share(&ur5(), &DampedLeastSquares::new(config, 1).unwrap(), 1000), 1.0);
+}
+
+/// A factory calibration moves every joint's origin by up to a millimetre and tilts it by up to
+/// 3 mrad; older series of the arm differ by as much as that.
+#[test]
+fn a_calibrated_arm_reaches_every_reachable_pose() {
+    let text = std::fs::read_to_string(shipped("ur5-ag95.urdf")).unwrap();
+    let mut rng = generator(11, "calibration");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("calibrated.urdf");
+    for _ in 0..5 {
+        let mut off = || uniform(&mut rng, -1e-3, 1e-3);
+        let calibrated = text
+            .replace("0.089159", &format!("{}", 0.0892 + off()))
+            .replace(
+                "xyz=\"-0.425 0 0\"",
+                &format!("xyz=\"{} {} {}\"", -0.425 + off(), off(), off()),
+            )
+            .replace(
+                "xyz=\"-0.39225 0 0\"",
+                &format!(
+                    "xyz=\"{} 0 {}\" rpy=\"{} {} 0\"",
+                    -0.39243 + off(),
+                    off(),
+                    3.0 * off(),
+                    3.0 * off()
+                ),
+            )
+            .replace("xyz=\"0 0 0.10915\"", &format!("xyz=\"{} 0 {}\"", off(), 0.110 + off()))
+            .replace("xyz=\"0 0 0.09465\"", &format!("xyz=\"0 {} {}\"", off(), 0.09475 + off()));
+        assert_ne!(calibrated, text);
+        std::fs::write(&file, calibrated).unwrap();
+        let robot = RobotModel::from_urdf(&file, &RobotOptions::default()).unwrap();
+        assert!(ClosedForm::of(&robot).is_some(), "near enough to the structure");
+        assert_eq!(share(&robot, &qp(), 1000), 1.0);
+    }
+}
+
+#[test]
+fn an_arm_of_seven_joints_reaches_every_reachable_pose() {
+    let panda = robot("panda-ag95.urdf");
+    assert!(ClosedForm::of(&panda).is_none());
+    assert_eq!(share(&panda, &qp(), 1000), 1.0);
+}
+
+#[test]
+fn a_limit_that_every_solution_breaks_is_named() {
+    let text = std::fs::read_to_string(shipped("ur5-ag95.urdf")).unwrap();
+    let narrow = "lower=\"-3.141592653589793\" upper=\"3.141592653589793\"";
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("narrow.urdf");
+    std::fs::write(&file, text.replace(narrow, "lower=\"1.0\" upper=\"1.6\"")).unwrap();
+    let robot = RobotModel::from_urdf(&file, &RobotOptions::default()).unwrap();
+    let near = [0.0, -1.5, 1.5, -1.5, -1.5, 0.0];
+    let target = ur5_at(Pose::identity()).tool_pose(&[0.3, -1.5, 2.2, -1.5, -1.5, 0.0]);
+    let outcome = qp().solve(&robot, &IkQuery::new(&target, &near)).unwrap();
+    assert_eq!(outcome.status, IkStatus::Infeasible);
+    let reason = outcome.reason.unwrap();
+    let named = reason.contains("elbow_joint would have to be at");
+    assert!(named && reason.contains("not in 1.000..1.600 rad"), "{reason}");
+}
+
+#[test]
+fn of_several_solutions_one_that_touches_nothing_is_taken() {
+    let robot = ur5_at(Pose::identity());
+    let checker = Checker::new(&robot, Margins::default(), &[], 0.095);
+    let mut rng = generator(10, "touching");
+    let (mut mended, mut none_free) = (0, 0);
+    for _ in 0..300 {
+        let target = robot.tool_pose(&draw(&robot, &mut rng));
+        let blind = IkQuery::new(&target, &HOME);
+        let seeing = IkQuery { clearance: Some(&checker), ..blind };
+        let (blind, seeing) =
+            (qp().solve(&robot, &blind).unwrap(), qp().solve(&robot, &seeing).unwrap());
+        assert_eq!((blind.status, seeing.status), (IkStatus::Solved, IkStatus::Solved));
+        assert_eq!(seeing.contact, checker.contact(&seeing.joints));
+        assert_eq!(seeing.contact.is_some(), seeing.reason.is_some());
+        none_free += usize::from(seeing.contact.is_some());
+        mended += usize::from(seeing.contact.is_none() && checker.contact(&blind.joints).is_some());
+    }
+    assert!(mended > 10 && none_free > 3, "{mended} {none_free}");
+}
+
+/// A tool that is sent through a post stops in front of it; unaware of it, it arrives.
+#[test]
+fn near_pairs_bound_the_steps() {
+    let robot = ur5_at(Pose::identity());
+    let there = robot.tool_pose(&HOME);
+    let ahead = Pose::from_parts(
+        Translation3::from(there.translation.vector + Vector3::new(0.1, 0.0, 0.0)),
+        there.rotation,
+    );
+    let post = Obstacle::Solid(Solid {
+        part: "post".into(),
+        shape: Shape::Capsule { radius_m: 0.02, length_m: 1.2 },
+        pose: Pose::from(ahead.translation),
+    });
+    let checker = Checker::new(&robot, Margins::default(), &[post], 0.05);
+    let query = IkQuery::continuous(&ahead, &HOME);
+    assert_eq!(qp().solve(&robot, &query).unwrap().status, IkStatus::Solved);
+    assert!(checker.contact(&qp().solve(&robot, &query).unwrap().joints).is_some());
+    let mut workspace =
+        descent::Workspace::<quadratic::Quadratic>::new(&IkConfig::default(), 6, true);
+    let query = IkQuery { clearance: Some(&checker), ..query };
+    let config = IkConfig { step_rad: 0.02, ..IkConfig::default() };
+    let (miss, _) = workspace.descend(&robot, &query, &HOME, true, &config);
+    let contact = checker.contact(&workspace.best);
+    assert!(contact.as_ref().is_none_or(|c| c.distance_m > -1e-3), "{contact:?}");
+    assert!((0.01..0.099).contains(&miss.position_m), "{miss:?}");
 }
 
 #[test]
@@ -89,6 +211,7 @@ fn an_unreachable_pose_says_by_how_much() {
     assert!(outcome.position_error_m > 0.5 && robot.within_limits(&outcome.joints));
     let told = outcome.reason.unwrap();
     assert!(told.contains(&format!("{:.1} mm", 1e3 * outcome.position_error_m)), "{told}");
+    assert!(told.contains("beyond the arm's reach"), "{told}");
 }
 
 #[test]
@@ -96,8 +219,10 @@ fn what_is_no_number_or_no_posture_is_refused() {
     let robot = ur5();
     let nan = Pose::from_parts(Translation3::new(f64::NAN, 0.0, 0.0), robot.tool().rotation);
     let ok = robot.tool_pose(&HOME);
-    for (target, near) in [(&nan, &HOME[..]), (&ok, &HOME[..5]), (&ok, &[f64::NAN; 6])] {
-        let told = qp().solve(&robot, &IkQuery { target, near, continuous: false });
+    for (target, near) in
+        [(&nan, &HOME[..]), (&ok, &HOME[..5]), (&ok, &[f64::NAN; 6]), (&ok, &[7.0; 6])]
+    {
+        let told = qp().solve(&robot, &IkQuery::new(target, near));
         assert!(matches!(told, Err(PluginError::Input(_))));
     }
     let wrong = IkConfig { damping: f64::NAN, ..IkConfig::default() };
@@ -111,7 +236,7 @@ fn a_line_is_followed_on_one_branch() {
     let mut q = HOME.to_vec();
     for step in 1..=60 {
         let target = Translation3::new(0.0, -0.004 * f64::from(step), 0.0) * start;
-        let query = IkQuery { target: &target, near: &q, continuous: true };
+        let query = IkQuery::continuous(&target, &q);
         let outcome = qp().solve(&robot, &query).unwrap();
         assert_eq!(outcome.status, IkStatus::Solved);
         assert!(outcome.position_error_m < 1e-4, "{}", outcome.position_error_m);

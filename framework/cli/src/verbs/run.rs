@@ -1,12 +1,12 @@
 //! `run`: one attempt, told as it happens.
 
 use crate::args::RunArgs;
-use crate::outputs::make_folder;
+use crate::outputs::{make_folder, write_file};
 use crate::picture::RunPicture;
 use crate::workcell::{Attempt, Workcell};
-use crate::{Ending, console, objects};
+use crate::{Ending, console, motion_table, objects};
 use anyhow::Result;
-use seeone_runtime::run::{Finished, Hooks, Outcome, StageEvent};
+use seeone_runtime::run::{Finished, Hooks, Outcome, Planned, StageEvent};
 use std::path::Path;
 use std::time::Instant;
 
@@ -49,6 +49,12 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
     let finished = workcell.attempt(&cell, &object, attempt, hooks)?;
     let path = args.out.join(format!("{stem}.png"));
     picture.finish(&workcell, &cell, &finished, &path)?;
+    if let Some(planned) = finished.left::<Planned>() {
+        let table = motion_table::table(&workcell.robot, &planned.program);
+        let path = path.with_extension("csv");
+        write_file(&path, table.as_bytes())?;
+        console::tell(&format!("  motion     {}", path.display()));
+    }
     summarise(&finished, &path, clock.elapsed().as_secs_f64());
     if args.json {
         console::answer(&serde_json::to_string_pretty(&finished.outcome)?)?;

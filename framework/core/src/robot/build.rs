@@ -19,19 +19,26 @@ pub struct RobotOptions {
     pub home: Option<Vec<f64>>,
     /// Largest acceleration of every joint, radians a second squared.
     pub acceleration: f64,
+    /// Largest jerk of every joint, radians a second cubed.
+    pub jerk: f64,
+    /// Pairs of URDF links that always touch or never can; left out of collision checks.
+    pub unchecked_pairs: Vec<[String; 2]>,
     /// The gripper.
     pub gripper: GripperOptions,
 }
 
 impl Default for RobotOptions {
-    /// At the world's origin, tool link `tcp`, 10 rad/s^2 (robot descriptions give no
-    /// accelerations; this is gentle for a six-axis arm), an AG-95.
+    /// At the world's origin, tool link `tcp`, 10 rad/s^2 and 100 rad/s^3 (robot descriptions
+    /// give neither; a six-axis arm is driven gently so, and reaches its largest acceleration
+    /// in 100 ms), every pair checked, an AG-95.
     fn default() -> Self {
         Self {
             base: Pose::identity(),
             tool_link: "tcp".into(),
             home: None,
             acceleration: 10.0,
+            jerk: 100.0,
+            unchecked_pairs: Vec::new(),
             gripper: GripperOptions::default(),
         }
     }
@@ -45,11 +52,20 @@ impl RobotModel {
     /// A [`Diagnostic`] with the file and the element: `R001` to `R006` for a broken URDF
     /// (unreadable, no URDF, duplicate name, dangling link, not one tree, not finite),
     /// `R007` limits or speed, `R008` axis, `R010` tool link, `R011` joint type, `R012`
-    /// geometry, `R013` home, `R014` gripper, `R015` another option.
+    /// geometry, `R013` home, `R014` gripper, `R015` another option, `R016` a pair of bodies.
     pub fn from_urdf(file: &Path, options: &RobotOptions) -> Result<Self, Diagnostic> {
         let tree = Tree::read(file)?;
-        if !(options.acceleration.is_finite() && options.acceleration > 0.0) {
-            return Err(tree.fault("R015", "the acceleration limit must be positive".into()));
+        for (what, limit) in [("acceleration", options.acceleration), ("jerk", options.jerk)] {
+            if !(limit.is_finite() && limit > 0.0) {
+                return Err(tree.fault("R015", format!("the {what} limit must be positive")));
+            }
+        }
+        let names = || tree.links().iter().map(|link| link.name.as_str());
+        if let Some(unknown) =
+            options.unchecked_pairs.iter().flatten().find(|n| !names().any(|l| l == *n))
+        {
+            let cause = format!("an unchecked pair names \"{unknown}\", which is no link");
+            return Err(tree.fault("R016", cause).suggest(unknown, names()));
         }
         if !options.base.to_homogeneous().iter().all(|v| v.is_finite()) {
             return Err(tree.fault("R015", "the base pose must be finite".into()));
@@ -68,6 +84,8 @@ impl RobotModel {
             links: parts.links,
             tool,
             acceleration: options.acceleration,
+            jerk: options.jerk,
+            unchecked_pairs: options.unchecked_pairs.clone(),
             gripper,
         };
         if let Some(home) = &options.home {

@@ -2,7 +2,7 @@
 
 use super::{GripperModel, Joint, Solid, tessellate::tessellate};
 use crate::{Pose, TriangleMesh};
-use nalgebra::{Matrix6xX, Vector3};
+use nalgebra::{Matrix6xX, Translation3, Vector3};
 
 /// One rigid part of the arm: the base, or what is behind a joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,6 +24,8 @@ pub struct RobotModel {
     pub(super) tool: Pose,
     pub(super) home: Vec<f64>,
     pub(super) acceleration: f64,
+    pub(super) jerk: f64,
+    pub(super) unchecked_pairs: Vec<[String; 2]>,
     pub(super) gripper: GripperModel,
 }
 
@@ -48,9 +50,17 @@ impl RobotModel {
         &self.links
     }
 
-    /// Pose of the tool frame (TCP) in the last link.
+    /// Pose of the tool frame (TCP) of the closed hand in the last link.
     pub fn tool(&self) -> &Pose {
         &self.tool
+    }
+
+    /// Pose of the tool frame in the last link with the pads `opening_m` apart: between the pads,
+    /// which come forward as they close. [`Self::tool`] is that of the closed hand.
+    pub fn tool_at(&self, opening_m: f64) -> Pose {
+        let gripper = &self.gripper;
+        let back = gripper.reach_m(opening_m) - gripper.reach_m(0.0);
+        self.tool * Translation3::new(0.0, 0.0, back)
     }
 
     /// Where the arm waits, radians; within the limits.
@@ -61,6 +71,16 @@ impl RobotModel {
     /// Largest acceleration of every joint, radians a second squared.
     pub fn acceleration(&self) -> f64 {
         self.acceleration
+    }
+
+    /// Largest jerk of every joint, radians a second cubed.
+    pub fn jerk(&self) -> f64 {
+        self.jerk
+    }
+
+    /// Pairs of URDF links that always touch or never can, so that nobody needs to check them.
+    pub fn unchecked_pairs(&self) -> &[[String; 2]] {
+        &self.unchecked_pairs
     }
 
     /// The gripper.
@@ -78,15 +98,24 @@ impl RobotModel {
     /// # Panics
     /// When `q` has not one value a joint.
     pub fn forward(&self, q: &[f64]) -> Vec<Pose> {
-        assert_eq!(q.len(), self.joints.len(), "one position a joint");
         let mut poses = Vec::with_capacity(self.links.len());
+        self.forward_into(q, &mut poses);
+        poses
+    }
+
+    /// As [`Self::forward`], into a vector whose room is used again.
+    ///
+    /// # Panics
+    /// When `q` has not one value a joint.
+    pub fn forward_into(&self, q: &[f64], poses: &mut Vec<Pose>) {
+        assert_eq!(q.len(), self.joints.len(), "one position a joint");
+        poses.clear();
         let mut pose = self.base;
         poses.push(pose);
         for (joint, position) in self.joints.iter().zip(q) {
             pose *= joint.transform(*position);
             poses.push(pose);
         }
-        poses
     }
 
     /// Pose of the tool frame in `world` at joint positions `q`.
@@ -106,9 +135,20 @@ impl RobotModel {
     /// # Panics
     /// When `q` has not one value a joint.
     pub fn jacobian(&self, q: &[f64]) -> Matrix6xX<f64> {
-        let links = self.forward(q);
-        let tip = (links[self.joints.len()] * self.tool).translation.vector;
         let mut jacobian = Matrix6xX::zeros(self.joints.len());
+        self.jacobian_into(&self.forward(q), &mut jacobian);
+        jacobian
+    }
+
+    /// As [`Self::jacobian`], from the poses of the links ([`Self::forward`]) and into a
+    /// matrix of one column a joint.
+    ///
+    /// # Panics
+    /// When there is not one pose a link or one column a joint.
+    pub fn jacobian_into(&self, links: &[Pose], jacobian: &mut Matrix6xX<f64>) {
+        assert_eq!(links.len(), self.links.len(), "one pose a link");
+        assert_eq!(jacobian.ncols(), self.joints.len(), "one column a joint");
+        let tip = (links[self.joints.len()] * self.tool).translation.vector;
         for (i, joint) in self.joints.iter().enumerate() {
             // A turn about the axis leaves the axis itself in place, so the link behind
             // the joint gives its direction and a point on it.
@@ -117,7 +157,6 @@ impl RobotModel {
             jacobian.fixed_view_mut::<3, 1>(0, i).copy_from(&axis.cross(&arm));
             jacobian.fixed_view_mut::<3, 1>(3, i).copy_from(&axis);
         }
-        jacobian
     }
 
     /// What the robot looks like at joint positions `q` with the pads `opening_m` apart:

@@ -102,6 +102,21 @@ fn the_gripper_is_the_ag95() {
 }
 
 #[test]
+fn the_tool_comes_forward_with_the_pads_as_they_close() {
+    let robot = ur5();
+    assert_eq!(robot.tool_at(0.0), *robot.tool());
+    let along = |opening| (robot.tool().inverse() * robot.tool_at(opening)).translation.vector.z;
+    assert!((along(0.0952) + 0.0158).abs() < 1e-12 && (along(0.0589) + 0.0036).abs() < 1e-12);
+    for opening in [0.0, 0.03, 0.095] {
+        let finger = &robot.gripper().finger_collision(opening)[0];
+        let Shape::Box { half_m } = finger.shape else { panic!() };
+        let tip = finger.pose.translation.z + half_m.z;
+        // 10.2 mm behind the tips, however far they are apart.
+        assert!((tip - robot.tool_at(opening).translation.z - 0.0102).abs() < 1e-9);
+    }
+}
+
+#[test]
 fn the_picture_has_every_body() {
     let robot = ur5();
     let meshes = robot.meshes(robot.home(), 0.03);
@@ -142,6 +157,13 @@ fn refuses_a_broken_description_and_names_the_element() {
         ("<link name=\"tool0\"/>", "<link name=\"tool0\"/><link name=\"spare\"/>", "R005", "spare"),
         ("xyz=\"0 0 0.089159\" rpy", "xyz=\"0 0 NaN\" rpy", "R006", "shoulder_lift_joint"),
         ("radius=\"0.075\"", "radius=\"inf\"", "R006", "base_link"),
+        ("effort=\"150\"", "effort=\"NaN\"", "R006", "shoulder_pan_joint"),
+        (
+            "<link name=\"tool0\"/>",
+            "<link name=\"tool0\"><inertial><origin xyz=\"NaN 0 0\"/><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial></link>",
+            "R006",
+            "tool0",
+        ),
         ("lower=\"-3.141592653589793\"", "lower=\"4\"", "R007", "elbow_joint"),
         ("velocity=\"3.141592653589793\"", "velocity=\"0\"", "R007", "shoulder_pan_joint"),
         ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 0\"/>", "R008", "shoulder_pan_joint"),

@@ -146,9 +146,13 @@ fn finite(robot: &Robot) -> Result<(), Diagnostic> {
         check("joint", &joint.name, &origin.xyz.0)?;
         check("joint", &joint.name, &origin.rpy.0)?;
         check("joint", &joint.name, &joint.axis.xyz.0)?;
-        check("joint", &joint.name, &[limit.lower, limit.upper, limit.velocity])?;
+        check("joint", &joint.name, &[limit.lower, limit.upper, limit.velocity, limit.effort])?;
     }
     for link in &robot.links {
+        let inertial = &link.inertial;
+        check("link", &link.name, &inertial.origin.xyz.0)?;
+        check("link", &link.name, &inertial.origin.rpy.0)?;
+        check("link", &link.name, &[inertial.mass.value])?;
         let visual = link.visual.iter().map(|v| (&v.origin, &v.geometry));
         for (origin, geometry) in
             visual.chain(link.collision.iter().map(|c| (&c.origin, &c.geometry)))

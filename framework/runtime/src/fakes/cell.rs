@@ -271,11 +271,13 @@ fn scene(head: Pose) -> Scene {
             half_extents_m: Vector2::new(0.25, 0.25),
             crop_height_m: 0.3,
         },
+        standing: Vec::new(),
     }
 }
 
 pub(crate) fn robot_file(urdf: PathBuf) -> RobotFile {
     RobotFile {
+        path: "fake.toml".into(),
         name: "fake".into(),
         plugin: "fake".into(),
         urdf,

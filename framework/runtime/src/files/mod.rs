@@ -7,6 +7,7 @@
 
 mod check;
 mod codes;
+mod obstacle;
 mod resolver;
 mod robot_file;
 mod scene;

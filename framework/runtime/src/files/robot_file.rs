@@ -26,6 +26,8 @@ struct RawRobot {
     home_rad: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     limits: RawLimits,
+    #[serde(default)]
+    collision: RawCollision,
     gripper: Option<RawGripper>,
     #[serde(default)]
     config: BTreeMap<Spanned<String>, toml::Table>,
@@ -35,6 +37,16 @@ struct RawRobot {
 #[serde(deny_unknown_fields)]
 struct RawLimits {
     acceleration_rad_s2: Option<Spanned<f64>>,
+    jerk_rad_s3: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct RawCollision {
+    #[serde(default)]
+    always: Vec<[String; 2]>,
+    #[serde(default)]
+    never: Vec<[String; 2]>,
 }
 
 #[derive(Deserialize)]
@@ -47,6 +59,8 @@ struct RawGripper {
 /// A robot file. The arm itself is checked when [`RobotFile::model`] reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotFile {
+    /// Where it was read.
+    pub path: PathBuf,
     /// Its name.
     pub name: String,
     /// The robot plugin that moves it.
@@ -78,6 +92,7 @@ impl RobotFile {
             resolver.note(fault.suggest(name, known.iter().map(String::as_str)));
         }
         let file = Self {
+            path: path.to_owned(),
             name: resolver.name("name", &raw.name),
             plugin: name.clone(),
             urdf: resolver.file("urdf", &raw.urdf),
@@ -90,15 +105,20 @@ impl RobotFile {
     /// The robot that the file describes.
     ///
     /// # Errors
-    /// `R0xx` when the description, or an option against it, is wrong.
+    /// `R0xx` when the description, or an option of this file against it, is wrong.
     pub fn model(&self) -> Result<RobotModel, Diagnostic> {
-        RobotModel::from_urdf(&self.urdf, &self.options)
+        let told = |fault: Diagnostic| match fault.code {
+            "R013" | "R015" | "R016" => fault.in_file(&self.path),
+            _ => fault,
+        };
+        RobotModel::from_urdf(&self.urdf, &self.options).map_err(told)
     }
 }
 
 fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
     let default = RobotOptions::default();
     let acceleration = raw.limits.acceleration_rad_s2.as_ref();
+    let jerk = raw.limits.jerk_rad_s3.as_ref();
     RobotOptions {
         base: raw.base.as_ref().map_or_else(Pose::identity, |pose| resolver.pose("base", pose)),
         tool_link: raw.tool_link.unwrap_or(default.tool_link),
@@ -109,6 +129,8 @@ fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
             default.acceleration,
             0.1..=100.0,
         ),
+        jerk: resolver.number_or("jerk_rad_s3", jerk, default.jerk, 1.0..=1e5),
+        unchecked_pairs: [raw.collision.always, raw.collision.never].concat(),
         gripper: raw.gripper.map_or(default.gripper, |gripper| GripperOptions {
             force_n: gripper.force_n,
             reach_m: gripper.reach_m,

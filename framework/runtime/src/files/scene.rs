@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Point3, Vector2};
 use seeone_core::pose::PoseFields;
+use seeone_core::robot::Solid;
 use seeone_core::{HeadSize, Intrinsics, Pose};
 use seeone_plugin::motion::Obstacle;
 use std::path::PathBuf;
@@ -60,6 +61,8 @@ pub struct Scene {
     pub intrinsics: Intrinsics,
     /// The drop zone.
     pub drop: Drop,
+    /// What else the arm must not touch, e.g. the camera's stand; poses in `world`.
+    pub standing: Vec<Solid>,
 }
 
 impl Scene {
@@ -70,7 +73,7 @@ impl Scene {
 
     /// What the arm must not touch.
     pub fn obstacles(&self) -> Vec<Obstacle> {
-        vec![
+        let mut obstacles = vec![
             Obstacle::Table { height_m: self.table.height_m, soft_m: self.table.soft_m },
             Obstacle::Ellipsoid {
                 name: "head".into(),
@@ -78,7 +81,9 @@ impl Scene {
                 rotation: self.head.pose.rotation,
                 semi_axes_m: self.head.size.semi_axes_m(),
             },
-        ]
+        ];
+        obstacles.extend(self.standing.iter().cloned().map(Obstacle::Solid));
+        obstacles
     }
 
     /// The table of configuration from which the camera plugin is built: `pose`,

@@ -1,6 +1,7 @@
 //! Reading a scene.
 
 use super::codes::{Family, Fault};
+use super::obstacle::{RawObstacle, obstacle};
 use super::resolver::Resolver;
 use super::source::Source;
 use super::{Drop, Head, KnownMethods, Scene, Table};
@@ -24,6 +25,8 @@ struct RawScene {
     head: RawHead,
     camera: RawCamera,
     drop: RawDrop,
+    #[serde(default)]
+    obstacle: Vec<RawObstacle>,
 }
 
 #[derive(Deserialize)]
@@ -99,6 +102,7 @@ impl Scene {
             camera: resolver.pose("pose", &raw.camera.pose),
             intrinsics: intrinsics(&mut resolver, &raw.camera.intrinsics),
             drop: drop_zone(&mut resolver, &raw.drop),
+            standing: raw.obstacle.iter().map(|raw| obstacle(&mut resolver, raw)).collect(),
         };
         resolver.finish(scene)
     }
