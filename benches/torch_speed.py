@@ -15,7 +15,7 @@ import torch
 import torch.nn.functional as F
 from torch import nn
 
-CLOUDS, POINTS, NEIGHBOURS, BINS = 4, 1024, 24, 64
+CLOUDS, POINTS, NEIGHBOURS, BINS = 4, 512, 24, 64
 CENTRES, TOKENS, QUERIES, WIDTH = POINTS // 4, POINTS // 16, POINTS // 2, 128
 SECONDS = 5.0
 
@@ -117,7 +117,7 @@ def main():
         F.cross_entropy(logits.transpose(1, 2), target.transpose(1, 2)).backward()
 
     count = sum(p.numel() for p in refiner.parameters())
-    print(f"PyTorch {torch.__version__}, {count} parameters, 4 clouds of 1,024 points, one core")
+    print(f"PyTorch {torch.__version__}, {count} parameters, 4 clouds of {POINTS} points, one core")
     print(f"forward              {median_ms(forward):7.1f} ms")
     print(f"forward and backward {median_ms(step):7.1f} ms")
 
