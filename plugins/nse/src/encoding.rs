@@ -31,6 +31,11 @@ impl Nse {
         Ok(Self { network: Arc::new(Network::new(parameters, columns)?), columns })
     }
 
+    /// Length of an input row: [`crate::OWN_COLUMNS`] and the perception's features.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
     /// Loads weights and their card from `folder`. `perception` is the folder of the
     /// perception's weights: features of others than those that the card requires would
     /// be noise to this network.

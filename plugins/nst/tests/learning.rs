@@ -73,6 +73,21 @@ fn learns_what_it_sees_and_answers_for_any_cloud() {
 }
 
 #[test]
+fn eight_frames_are_learnt_by_heart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (data, out) = (folder.path().join("data"), folder.path().join("weights"));
+    std::fs::create_dir(&data).expect("a folder");
+    synthetic::write(&data, 1, 8);
+    let plan = TrainPlan { coarse_samples: 1500, ..plan(&data, &out, 9000) };
+    let report = train(&plan, &mut |_| ControlFlow::Continue(())).expect("trained");
+    let Report::Finished(figures) = report else { panic!("nobody interrupted it") };
+    let figures = figures["validation"];
+    for group in [figures.settled, figures.falling] {
+        assert!(group.within_004_d > 0.99, "{figures:?}");
+    }
+}
+
+#[test]
 fn an_interrupted_training_ends_with_the_same_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let data = folder.path().join("data");
