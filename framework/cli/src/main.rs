@@ -12,6 +12,7 @@ mod objects;
 mod outputs;
 mod picture;
 mod rate;
+mod shown;
 mod simulated;
 mod targets;
 mod threads;

@@ -7,7 +7,7 @@
 
 use crate::units::{PER_CANONICAL, PER_METRE, camera_frame};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
-use seeone_core::{Pose, Similarity};
+use seeone_core::Similarity;
 use seeone_nn::sampling::Point;
 
 /// Columns of a place: a point, the least and the largest coordinates of its cloud, the
@@ -31,7 +31,8 @@ pub struct Lens {
 impl Lens {
     /// For the coarse network: `points` as they lie, turned to the camera.
     pub fn coarse(points: &[Vector3<f64>], camera: &Point3<f64>) -> Self {
-        Self::new(&similarity(&camera_frame(points, camera)), PER_METRE)
+        let frame = Similarity::from_isometry(camera_frame(points, camera), 1.0);
+        Self::new(&frame, PER_METRE)
     }
 
     /// For the refiner: in `pose` (`world` -> centred canonical coordinates).
@@ -82,10 +83,6 @@ impl Lens {
     }
 }
 
-fn similarity(pose: &Pose) -> Similarity {
-    Similarity::from_isometry(*pose, 1.0)
-}
-
 fn enlarged(pose: &Similarity, by: f64) -> Similarity {
     Similarity::from_scaling(by) * pose
 }
@@ -127,9 +124,10 @@ impl Stance {
         points.iter().map(move |point| {
             let height = (self.height_m + self.unit_m * dot(&self.up, point)) * per_metre;
             let height = height.clamp(HEIGHTS.0, HEIGHTS.1);
+            let triples = [*point, low, high, towards, self.up];
             let mut place = [0.0; PLACE];
-            let columns = [*point, low, high, towards, self.up, [height, size, 0.0]];
-            place.copy_from_slice(&columns.as_flattened()[..PLACE]);
+            place[..15].copy_from_slice(triples.as_flattened());
+            place[15..].copy_from_slice(&[height, size]);
             place
         })
     }

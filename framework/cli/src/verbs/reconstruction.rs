@@ -1,7 +1,7 @@
 //! `eval reconstruction`: the canonical shape that the encoding knows, against the truth.
 
-use super::train::observation;
 use crate::args::EvalReconstructionArgs;
+use crate::shown::observation;
 use crate::{Ending, console};
 use anyhow::{Result, anyhow};
 use seeone_core::frames::Frame;

@@ -1,16 +1,14 @@
 //! `train`: the networks, from a set of frames to weights with their cards.
 
 use crate::args::{Network, TrainArgs};
+use crate::shown::observation;
 use crate::{Ending, console};
 use anyhow::{Error, Result};
 use indicatif::{ProgressBar, ProgressStyle};
-use nalgebra::Point3;
-use seeone_core::Cloud;
 use seeone_core::frames::Frame;
 use seeone_nn::train::Ending as Trained;
 use seeone_nse::{Nse, Progress as NseProgress};
 use seeone_nst::{NstPerception, NstTrainError, Report, Stage};
-use seeone_plugin::Observation;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -165,17 +163,6 @@ fn train_nse(
         }
     }
     Ok(true)
-}
-
-/// A frame of the set as a camera would have shown it.
-pub(super) fn observation(frame: &Frame) -> Observation {
-    let points = frame.points.iter().map(|p| Point3::from(p.map(f64::from))).collect();
-    Observation {
-        depth: None,
-        // The set was checked for finite points when it was read.
-        cloud: Cloud::new(points).unwrap_or_default(),
-        camera_position: Point3::from(frame.info.camera.xyz_m),
-    }
 }
 
 fn loss(value: f64) -> String {
