@@ -96,6 +96,7 @@ fn a_run_tells_draws_and_records_itself_and_its_seed_repeats_it() {
         "error_m",
         "error_d",
         "tilt_deg",
+        "nose_up_deg",
         "yaw_deg",
         "tries",
         "failed_at",

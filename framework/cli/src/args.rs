@@ -223,6 +223,10 @@ pub struct EvalSkillArgs {
     /// Attempts at the same time; the outcome does not depend on it.
     #[arg(long, default_value_t = 2)]
     pub jobs: usize,
+    /// Keep every attempt in this file as it ends, and do not make again what is there: the same
+    /// command goes on where it was stopped, and more --attempts add to it.
+    #[arg(long, value_name = "FILE")]
+    pub keep: Option<PathBuf>,
     /// Print the table as JSON on standard output.
     #[arg(long)]
     pub json: bool,
@@ -305,10 +309,10 @@ pub struct DataArgs {
     /// Seed of every draw.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// A set (`train`, `paper-40`, `validation`, `unseen`, `beanie`), a name, or a file from
-    /// `objects import`.
+    /// A set (`train`, `wide`, `paper-40`, `validation`, `unseen`, `beanie`), a name, or a file
+    /// from `objects import`; may be repeated.
     #[arg(long, default_value = "train")]
-    pub objects: String,
+    pub objects: Vec<String>,
     /// Frames in all, shared evenly by the objects.
     #[arg(long, default_value_t = FRAMES, value_parser = frames)]
     pub frames: NonZeroUsize,

@@ -7,6 +7,7 @@ mod console;
 mod faults;
 mod files;
 mod follow;
+mod kept;
 mod motion_table;
 mod objects;
 mod outputs;

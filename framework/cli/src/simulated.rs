@@ -110,7 +110,7 @@ impl Judge for CellJudge {
             let to_head = self.head.pose.inverse();
             (at_rest, cell.vertices().iter().map(|v| to_head * v).collect::<Vec<_>>())
         };
-        let WearError { mean_m: error_m, mean_d: error_d, tilt_deg, yaw_deg } =
+        let WearError { mean_m: error_m, mean_d: error_d, tilt_deg, nose_up_deg, yaw_deg } =
             WearError::of(&self.worn, &reached);
         let success = grasped && at_rest && error_d < tolerance_d;
         let placed =
@@ -131,6 +131,7 @@ impl Judge for CellJudge {
             error_m: Some(error_m),
             error_d: Some(error_d),
             tilt_deg: Some(tilt_deg),
+            nose_up_deg: Some(nose_up_deg),
             yaw_deg: Some(yaw_deg),
             reason,
         })

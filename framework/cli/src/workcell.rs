@@ -5,6 +5,7 @@ use crate::builtin;
 use crate::faults::Faults;
 use crate::simulated::SimulatedCell;
 use anyhow::{Context, Result};
+use seeone_core::Diagnostic;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::Kind;
 use seeone_runtime::files::{RobotFile, Scene, Skill};
@@ -14,6 +15,7 @@ use seeone_runtime::registry::Registry;
 use seeone_runtime::run::{Assignment, Finished, Hooks};
 use seeone_sim::object::Object;
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What every attempt of one command shares.
@@ -33,6 +35,7 @@ pub struct Workcell {
     tries: usize,
     config: BTreeMap<Kind, toml::Table>,
     provenance: BTreeMap<String, String>,
+    libraries: Vec<PathBuf>,
 }
 
 /// How one attempt is to be made.
@@ -74,6 +77,7 @@ impl Workcell {
             tries: args.tries as usize,
             config,
             provenance,
+            libraries: args.plugins.clone(),
         })
     }
 
@@ -109,6 +113,28 @@ impl Workcell {
         assignment.recording = attempt.recording;
         assignment.provenance.clone_from(&self.provenance);
         Ok(seeone_runtime::run::run(assignment, plugins, hooks))
+    }
+
+    /// What the outcome of an attempt on one of `objects` depends on besides its seed, in
+    /// short: two evaluations of the same fingerprint make the same attempts.
+    ///
+    /// # Errors
+    /// When a file that was just read can be read no more.
+    pub fn fingerprint(&self, objects: &str) -> Result<String, Diagnostic> {
+        let mut hasher = blake3::Hasher::new();
+        let parts = (&self.skill, &self.scene, &self.robot, &self.methods, &self.config);
+        hasher.update(format!("{parts:?} {} {:?}", self.tries, self.provenance).as_bytes());
+        hasher.update(objects.as_bytes());
+        let object_file = Some(Path::new(objects)).filter(|path| path.is_file());
+        let files = [Some(self.skill.demonstration.cloud.as_path()), object_file];
+        for file in files.into_iter().chain(self.libraries.iter().map(|l| Some(l.as_path()))) {
+            let Some(file) = file else { continue };
+            let bytes = fs::read(file).map_err(|e| {
+                Diagnostic::new("F001", format!("cannot read the file: {e}")).in_file(file)
+            })?;
+            hasher.update(blake3::hash(&bytes).as_bytes());
+        }
+        Ok(hasher.finalize().to_hex().to_string())
     }
 
     /// Drops `object` into the scene.

@@ -26,6 +26,8 @@ pub struct Verdict {
     pub error_d: Option<f64>,
     /// Angle between the worn and the reached up axis, degrees.
     pub tilt_deg: Option<f64>,
+    /// The part of it that is the brim's: up positive, degrees.
+    pub nose_up_deg: Option<f64>,
     /// Angle about the up axis between worn and reached, degrees.
     pub yaw_deg: Option<f64>,
     /// Why it failed, or by how much it succeeded.

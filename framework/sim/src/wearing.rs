@@ -20,6 +20,8 @@ pub struct WearError {
     pub mean_d: f64,
     /// Angle between the upward axes, degrees.
     pub tilt_deg: f64,
+    /// The part of it about the axis to the right, degrees, the brim up positive.
+    pub nose_up_deg: f64,
     /// Turn of the forward axis about the head's z axis, degrees, to the left positive.
     /// Near zero for a round object, whose turn is taken out.
     pub yaw_deg: f64,
@@ -41,6 +43,7 @@ impl WearError {
             mean_m,
             mean_d: mean_m / worn.diameter_m,
             tilt_deg: up.angle(&Vector3::z()).to_degrees(),
+            nose_up_deg: (-up.y).atan2(up.z).to_degrees(),
             yaw_deg: (-forward.x).atan2(forward.y).to_degrees(),
         }
     }

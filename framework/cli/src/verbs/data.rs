@@ -13,10 +13,8 @@ use seeone_sim::dataset::{Plan, Summary, generate};
 /// When an object is not there, cannot be worn or is hardly ever seen, or when the folder
 /// cannot be written or holds another plan's set.
 pub fn run(args: &DataArgs) -> Result<Ending> {
-    let objects = objects::names(&args.objects)
-        .iter()
-        .map(|name| objects::resolve(name))
-        .collect::<Result<Vec<_>>>()?;
+    let names = args.objects.iter().flat_map(|given| objects::names(given));
+    let objects = names.map(|name| objects::resolve(&name)).collect::<Result<Vec<_>>>()?;
     make_folder(&args.out)?;
     let plan = Plan {
         objects,
@@ -24,8 +22,8 @@ pub fn run(args: &DataArgs) -> Result<Ending> {
         views: args.views,
         seed: args.seed,
         command: format!(
-            "seeone data --objects {} --frames {} --views {} --seed {} --out {}",
-            args.objects,
+            "seeone data{} --frames {} --views {} --seed {} --out {}",
+            args.objects.iter().map(|given| format!(" --objects {given}")).collect::<String>(),
             args.frames,
             args.views,
             args.seed,

@@ -1,6 +1,7 @@
 //! `eval`: many attempts, their rates and their reasons.
 
 use crate::args::EvalSkillArgs;
+use crate::kept::Kept;
 use crate::rate::Rate;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
@@ -41,6 +42,8 @@ const PROPER_YAW_DEG: f64 = 15.0;
 /// When something given is wrong; a run that fails is a row, not an error.
 pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
     let workcell = Workcell::open(&args.cell)?;
+    let fingerprint = || workcell.fingerprint(&args.objects);
+    let kept = args.keep.as_ref().map(|path| Kept::open(path, fingerprint()?)).transpose()?;
     let bar = ProgressBar::new(args.attempts).with_style(ProgressStyle::with_template(
         "eval {wide_bar} {pos}/{len} attempts, {eta} left",
     )?);
@@ -50,10 +53,17 @@ pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
         seeds
             .into_par_iter()
             .map(|seed| {
+                if let Some(outcome) = kept.as_ref().and_then(|kept| kept.outcome(seed)) {
+                    bar.inc(1);
+                    return Ok(outcome.clone());
+                }
                 let object = objects::for_attempt(&args.objects, seed)?;
                 let cell = workcell.drop(&object, seed)?;
                 let attempt = Attempt { seed, dry_run: false, recording: None };
                 let finished = workcell.attempt(&cell, &object, attempt, Hooks::default())?;
+                if let Some(kept) = &kept {
+                    kept.keep(&finished.outcome)?;
+                }
                 bar.inc(1);
                 Ok(finished.outcome)
             })

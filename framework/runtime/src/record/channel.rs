@@ -90,6 +90,7 @@ impl Channel {
                 ("error_m", "number"),
                 ("error_d", "number"),
                 ("tilt_deg", "number"),
+                ("nose_up_deg", "number"),
                 ("yaw_deg", "number"),
                 ("reason", "string"),
             ],

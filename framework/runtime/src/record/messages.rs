@@ -66,6 +66,7 @@ impl Record<'_> {
             "error_m": verdict.and_then(|v| v.error_m),
             "error_d": verdict.and_then(|v| v.error_d),
             "tilt_deg": verdict.and_then(|v| v.tilt_deg),
+            "nose_up_deg": verdict.and_then(|v| v.nose_up_deg),
             "yaw_deg": verdict.and_then(|v| v.yaw_deg),
             "reason": failed.or_else(|| verdict.map(|v| v.reason.clone())),
         })

@@ -5,11 +5,13 @@ use super::bench::Bench;
 use super::record::Recorded;
 use super::step::{Failed, StageEvent, Step};
 use seeone_plugin::{Kind, Verdict};
-use serde::{Serialize, Serializer};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// What is told of a run: the one object that `run --json` prints.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// The skill's name.
     pub skill: String,
@@ -20,7 +22,7 @@ pub struct Outcome {
     /// The seed.
     pub seed: u64,
     /// Which plugin did what.
-    #[serde(serialize_with = "methods")]
+    #[serde(serialize_with = "methods", deserialize_with = "read_methods")]
     pub methods: Vec<(Kind, String)>,
     /// How often the robot looked and reached for the object; zero after a dry run.
     pub tries: usize,
@@ -36,6 +38,8 @@ pub struct Outcome {
     pub error_d: Option<f64>,
     /// Angle between the worn and the reached up axis, degrees.
     pub tilt_deg: Option<f64>,
+    /// The part of it that is the brim's: up positive, degrees.
+    pub nose_up_deg: Option<f64>,
     /// Angle about the up axis between worn and reached, degrees.
     pub yaw_deg: Option<f64>,
     /// Why it failed, or by how much it succeeded.
@@ -44,7 +48,7 @@ pub struct Outcome {
     /// closed on nothing is told with `ok = false` in a run that may succeed all the same.
     pub stages: Vec<StageEvent>,
     /// Time of each step, in all tries together, by the clock that was handed in, milliseconds.
-    #[serde(serialize_with = "timings")]
+    #[serde(serialize_with = "timings", deserialize_with = "read_timings")]
     pub timings_ms: Vec<(Step, f64)>,
     /// Where the recording lies.
     pub recording: Option<PathBuf>,
@@ -79,6 +83,7 @@ impl Outcome {
             error_m: verdict.and_then(|verdict| verdict.error_m),
             error_d: verdict.and_then(|verdict| verdict.error_d),
             tilt_deg: verdict.and_then(|verdict| verdict.tilt_deg),
+            nose_up_deg: verdict.and_then(|verdict| verdict.nose_up_deg),
             yaw_deg: verdict.and_then(|verdict| verdict.yaw_deg),
             reason,
             stages: bench.events.clone(),
@@ -94,4 +99,26 @@ fn methods<S: Serializer>(methods: &[(Kind, String)], to: S) -> Result<S::Ok, S:
 
 fn timings<S: Serializer>(timings: &[(Step, f64)], to: S) -> Result<S::Ok, S::Error> {
     to.collect_map(timings.iter().map(|(step, ms)| (step.name(), ms)))
+}
+
+fn read_methods<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Kind, String)>, D::Error> {
+    let by_name = BTreeMap::<String, String>::deserialize(from)?;
+    let mut methods = by_name
+        .into_iter()
+        .map(|(kind, name)| {
+            let unknown = || D::Error::custom(format!("there is no kind \"{kind}\""));
+            Ok((kind.parse().map_err(|()| unknown())?, name))
+        })
+        .collect::<Result<Vec<(Kind, String)>, D::Error>>()?;
+    methods.sort_by_key(|(kind, _)| *kind);
+    Ok(methods)
+}
+
+fn read_timings<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(Step, f64)>, D::Error> {
+    let by_name = BTreeMap::<String, f64>::deserialize(from)?;
+    if let Some(name) = by_name.keys().find(|name| Step::ALL.iter().all(|s| s.name() != *name)) {
+        return Err(D::Error::custom(format!("there is no step \"{name}\"")));
+    }
+    let taken = |step: Step| by_name.get(step.name()).map(|ms| (step, *ms));
+    Ok(Step::ALL.into_iter().filter_map(taken).collect())
 }

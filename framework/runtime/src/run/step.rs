@@ -2,7 +2,7 @@
 
 use bevy_ecs::component::Component;
 use bevy_ecs::schedule::SystemSet;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A step of a run, in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +26,18 @@ pub enum Step {
 }
 
 impl Step {
+    /// Every step, in order.
+    pub const ALL: [Self; 8] = [
+        Self::Observe,
+        Self::Perceive,
+        Self::Encode,
+        Self::Transfer,
+        Self::Plan,
+        Self::Act,
+        Self::Judge,
+        Self::Record,
+    ];
+
     /// The name used in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -42,7 +54,7 @@ impl Step {
 }
 
 /// How a step of the run or a stage of the skill ended.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StageEvent {
     /// The step's name; for what the robot did, the skill's own name of the stage.
     pub name: String,

@@ -10,6 +10,7 @@
 
 pub mod apart;
 mod assemble;
+mod breadth;
 mod brim;
 mod catalogue;
 mod crown;
@@ -22,6 +23,7 @@ mod warp;
 
 use crate::object::Object;
 
+pub use breadth::Breadth;
 pub use catalogue::{Entry, catalogue};
 pub use resolution::Resolution;
 pub use sets::{Member, Set};
@@ -47,14 +49,14 @@ pub fn named_at(name: &str, resolution: Resolution) -> Option<Object> {
 
 /// What kind of cap has this name, or nothing when none has.
 pub fn member(name: &str) -> Option<Member> {
-    let mut all = Set::DISJOINT.into_iter().flat_map(Set::members);
+    let mut all = Set::WHOLE.into_iter().flat_map(Set::members);
     all.find_map(|(known, member)| (known == name).then_some(member))
 }
 
 impl Member {
     /// Its shape.
     pub fn shape(self) -> shape::Shape {
-        self.template.shapes(self.template.seed())[self.number]
+        self.template.shapes(self.breadth, self.template.seed(self.breadth))[self.number]
     }
 
     /// The cap, under this name.
@@ -64,8 +66,13 @@ impl Member {
 }
 
 /// The caps that `seed` would give a template, at rest; what its own seed was chosen among.
-pub fn drawn(template: Template, seed: u64, resolution: Resolution) -> Vec<Object> {
-    let shapes = template.shapes(seed);
+pub fn drawn(
+    template: Template,
+    breadth: Breadth,
+    seed: u64,
+    resolution: Resolution,
+) -> Vec<Object> {
+    let shapes = template.shapes(breadth, seed);
     shapes.iter().map(|shape| assemble::assemble("drawn", template, shape, resolution)).collect()
 }
 #[cfg(test)]

@@ -1,15 +1,18 @@
 //! The sets of caps and how the shapes of each template are dealt to them.
 
+use super::breadth::Breadth;
 use super::hypercube::latin_hypercube;
 use super::shape::Shape;
 use super::template::Template;
 
-/// A set of caps. All but [`Set::Paper40`], which is a part of [`Set::Train`], share no
-/// shape and no cell of a parameter.
+/// A set of caps. [`Set::DISJOINT`] share no shape and no cell of a parameter;
+/// [`Set::Paper40`] is a part of [`Set::Train`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Set {
     /// What networks are trained on and demonstrations are given with.
     Train,
+    /// Further caps for networks to be trained on, of ranges wider than the category's own.
+    Wide,
     /// What choices are made on.
     Validation,
     /// What results are reported on.
@@ -25,22 +28,33 @@ pub enum Set {
 pub struct Member {
     /// Its kind.
     pub template: Template,
-    /// Its number in the template's hypercube.
+    /// Which of the template's hypercubes it is from.
+    pub breadth: Breadth,
+    /// Its number in that hypercube.
     pub number: usize,
 }
 
+/// The caps of [`Set::Wide`], by their place in it, that are left out: they do not sit on a
+/// head within 20 degrees, hence have no canonical state to learn.
+const UNWEARABLE: [usize; 12] = [13, 54, 63, 69, 72, 113, 114, 143, 180, 225, 238, 256];
+
 impl Set {
     /// Every set.
-    pub const ALL: [Self; 5] =
-        [Self::Train, Self::Validation, Self::Unseen, Self::Beanie, Self::Paper40];
+    pub const ALL: [Self; 6] =
+        [Self::Train, Self::Wide, Self::Validation, Self::Unseen, Self::Beanie, Self::Paper40];
 
     /// The sets that share nothing, in the order in which shapes are dealt to them.
     pub const DISJOINT: [Self; 4] = [Self::Train, Self::Validation, Self::Unseen, Self::Beanie];
+
+    /// The sets that others are no part of: together, every cap there is.
+    pub const WHOLE: [Self; 5] =
+        [Self::Train, Self::Validation, Self::Unseen, Self::Beanie, Self::Wide];
 
     /// The set's name, as it stands in the names of its caps.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Train => "train",
+            Self::Wide => "wide",
             Self::Validation => "validation",
             Self::Unseen => "unseen",
             Self::Beanie => "beanie",
@@ -48,14 +62,25 @@ impl Set {
         }
     }
 
-    /// How many caps of each template it has, in the order of [`Template::ALL`].
+    /// How many caps of each template are dealt to it, in the order of [`Template::ALL`].
     pub const fn quotas(self) -> [usize; 5] {
         match self {
             Self::Train => [60, 9, 10, 11, 0],
+            Self::Wide => [180, 27, 30, 33, 0],
             Self::Validation => [6, 1, 1, 2, 0],
             Self::Unseen => [12, 2, 3, 3, 0],
             Self::Beanie => [0, 0, 0, 0, 5],
             Self::Paper40 => [26, 4, 5, 5, 0],
+        }
+    }
+
+    /// Which ranges its shapes are drawn from.
+    pub const fn breadth(self) -> Breadth {
+        match self {
+            Self::Wide => Breadth::Wide,
+            Self::Train | Self::Validation | Self::Unseen | Self::Beanie | Self::Paper40 => {
+                Breadth::Usual
+            }
         }
     }
 
@@ -78,8 +103,11 @@ impl Set {
                 let number = self.first_number(next) + dealt[next];
                 dealt[next] += 1;
                 let name = format!("cap-{}-{i:0digits$}", self.name());
-                (name, Member { template: Template::ALL[next], number })
+                (name, Member { template: Template::ALL[next], breadth: self.breadth(), number })
             })
+            .enumerate()
+            .filter(|(i, _)| self != Self::Wide || !UNWEARABLE.contains(i))
+            .map(|(_, member)| member)
             .collect()
     }
 
@@ -98,19 +126,29 @@ impl Set {
 
     /// How many shapes of the template have gone to the sets before this one.
     fn first_number(self, template: usize) -> usize {
-        let before = Self::DISJOINT.into_iter().take_while(|set| *set != self);
+        let before = sharing(self.breadth()).take_while(|set| *set != self);
         before.map(|set| set.quotas()[template]).sum()
     }
 }
 
+/// The sets that the shapes of one hypercube are dealt to.
+fn sharing(breadth: Breadth) -> impl Iterator<Item = Set> {
+    Set::WHOLE.into_iter().filter(move |set| set.breadth() == breadth)
+}
+
 impl Template {
-    /// How many shapes it has in all sets.
-    pub fn count(self) -> usize {
-        Set::DISJOINT.into_iter().map(|set| set.quotas()[self as usize]).sum()
+    /// How many shapes it has in all sets of this breadth.
+    pub fn count(self, breadth: Breadth) -> usize {
+        sharing(breadth).map(|set| set.quotas()[self as usize]).sum()
     }
 
-    /// Its shapes, one hypercube for all sets together, so that no two sets share a cell.
-    pub fn shapes(self, seed: u64) -> Vec<Shape> {
-        latin_hypercube(self.ranges(), self.count(), seed, self.name())
+    /// Its shapes, one hypercube for all sets of this breadth together, so that no two sets
+    /// share a cell.
+    pub fn shapes(self, breadth: Breadth, seed: u64) -> Vec<Shape> {
+        let stream = match breadth {
+            Breadth::Usual => self.name().to_owned(),
+            Breadth::Wide => format!("{} wide", self.name()),
+        };
+        latin_hypercube(&breadth.of(self.ranges()), self.count(breadth), seed, &stream)
     }
 }

@@ -6,6 +6,7 @@ mod bucket;
 mod flat;
 mod visor;
 
+use super::breadth::Breadth;
 use super::resolution::Resolution;
 use super::shape::{Range, Shape};
 use crate::object::Symmetry;
@@ -92,15 +93,19 @@ impl Template {
         }
     }
 
-    /// Seed of its shapes: a name stands for one shape for ever. Its caps are all further
-    /// apart than [`super::apart::NEAR_DUPLICATE`]; the example `apart` searches such seeds.
-    pub const fn seed(self) -> u64 {
-        match self {
-            Self::Baseball => 45,
-            Self::Bucket => 38,
-            Self::Visor => 3,
-            Self::Flat => 14,
-            Self::Beanie => 0,
+    /// Seed of its shapes: a name stands for one shape for ever. Its usual caps are all further
+    /// apart than [`super::apart::NEAR_DUPLICATE`], and its wide ones that far from all usual
+    /// ones; the example `apart` searches such seeds.
+    pub const fn seed(self, breadth: Breadth) -> u64 {
+        match (breadth, self) {
+            (Breadth::Usual, Self::Baseball) => 45,
+            (Breadth::Usual, Self::Bucket) => 38,
+            (Breadth::Usual, Self::Visor) => 3,
+            (Breadth::Usual, Self::Flat) => 14,
+            (Breadth::Usual, Self::Beanie) => 0,
+            (Breadth::Wide, Self::Bucket) => 1,
+            (Breadth::Wide, Self::Flat) => 2,
+            (Breadth::Wide, _) => 0,
         }
     }
 
