@@ -2,13 +2,14 @@
 //! a user mends a file in one go.
 
 use super::codes::Fault;
+use super::pose::RawPose;
 use super::source::Source;
+use super::spanned::Spanned;
 use nalgebra::Vector3;
 use seeone_core::pose::PoseFields;
 use seeone_core::{Diagnostic, Pose};
 use std::ops::{Range, RangeInclusive};
 use std::path::{Component, Path, PathBuf};
-use toml::Spanned;
 
 /// The longest name.
 const LONGEST_NAME: usize = 64;
@@ -91,8 +92,8 @@ impl<'a> Resolver<'a> {
     }
 
     /// A pose: finite, and its quaternion of unit length.
-    pub(super) fn pose(&mut self, key: &str, value: &Spanned<PoseFields>) -> Pose {
-        value.get_ref().resolve().unwrap_or_else(|cause| {
+    pub(super) fn pose(&mut self, key: &str, value: &Spanned<RawPose>) -> Pose {
+        PoseFields::from(value.get_ref()).resolve().unwrap_or_else(|cause| {
             self.fault(Fault::Pose, value.span(), format!("{key}: {cause}"));
             Pose::identity()
         })

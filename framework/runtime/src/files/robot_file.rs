@@ -2,57 +2,85 @@
 
 use super::KnownMethods;
 use super::codes::{Family, Fault};
+use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
-use seeone_core::pose::PoseFields;
+use super::spanned::Spanned;
+use schemars::JsonSchema;
 use seeone_core::robot::{GripperOptions, RobotModel, RobotOptions};
 use seeone_core::{Diagnostic, Pose};
 use seeone_plugin::Kind;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
-#[derive(Deserialize)]
+/// A robot file: which plugin moves which arm, and what the description of the arm leaves out.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct RawRobot {
+#[schemars(rename = "robot")]
+pub(super) struct RawRobot {
+    /// The version of the format.
     #[serde(rename = "schema")]
+    #[schemars(extend("const" = 1))]
     _schema: u32,
+    /// Its name: small letters, digits and hyphens.
     name: Spanned<String>,
+    /// The robot plugin that moves it.
     plugin: Spanned<String>,
+    /// The URDF below the robot file's folder.
     urdf: Spanned<String>,
-    base: Option<Spanned<PoseFields>>,
+    /// Pose of the base link; at the origin when it is not said.
+    base: Option<Spanned<RawPose>>,
+    /// The URDF's tool link: z along the approach, y along the closing direction.
     tool_link: Option<String>,
+    /// Where the robot waits, radians, one a joint.
     home_rad: Option<Spanned<Vec<f64>>>,
+    /// What the joints may do.
     #[serde(default)]
     limits: RawLimits,
+    /// Pairs of links that no collision check looks at.
     #[serde(default)]
     collision: RawCollision,
+    /// The gripper; a DH-Robotics AG-95 when it is not said.
     gripper: Option<RawGripper>,
+    /// Tables for plugins, by kind; each plugin checks its own.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, BTreeMap<String, serde_json::Value>>")]
     config: BTreeMap<Spanned<String>, toml::Table>,
 }
 
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "limits")]
 struct RawLimits {
+    /// Largest acceleration of a joint, radians a second squared.
+    #[schemars(range(min = 0.1, max = 100.0))]
     acceleration_rad_s2: Option<Spanned<f64>>,
+    /// Largest jerk of a joint, radians a second cubed.
+    #[schemars(range(min = 1.0, max = 1e5))]
     jerk_rad_s3: Option<Spanned<f64>>,
 }
 
-#[derive(Deserialize, Default)]
+#[derive(Deserialize, JsonSchema, Default)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "collision")]
 struct RawCollision {
+    /// Pairs that touch at every posture.
     #[serde(default)]
     always: Vec<[String; 2]>,
+    /// Pairs that touch at no posture.
     #[serde(default)]
     never: Vec<[String; 2]>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "gripper")]
 struct RawGripper {
+    /// Smallest and largest grip force, newtons.
     force_n: [f64; 2],
+    /// `[opening, reach]`, metres, openings rising: how far the finger tips are from the flange
+    /// when the pads are that far apart.
     reach_m: Vec<(f64, f64)>,
 }
 

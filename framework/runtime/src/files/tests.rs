@@ -156,7 +156,7 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
         (
             "lift_m = 0.25",
             "lift_m = \"high\"",
-            "error[S013]: a.toml:16:10: invalid type: string \"high\", expected f64",
+            "error[S013]: a.toml:16:10: invalid type: string \"high\", expected a number",
         ),
         (
             "lift_m = 0.25",

@@ -1,5 +1,6 @@
 //! A field of features on the canonical cube for both objects.
 
+use super::assignment::Assignment;
 use super::bench::Bench;
 use super::perceive::Perceived;
 use super::schedule::leave;
@@ -19,7 +20,7 @@ pub struct Encoded {
 pub(super) fn encode(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Perceived), Without<Failed>>,
+    runs: Query<(Entity, &Perceived), (With<Assignment>, Without<Failed>)>,
 ) {
     for (run, perceived) in &runs {
         let encoded = bench.step(Step::Encode, |plugins| {
