@@ -24,7 +24,7 @@ pub struct Cli {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// Run a skill once: look, perceive, encode, transfer, plan, act, judge.
+    /// Run a skill once: look, perceive, encode, transfer, plan, act, judge. Or a task of skills.
     Run(RunArgs),
     /// Run a skill many times over seeds and objects and report rates with intervals.
     Eval(EvalArgs),
@@ -63,7 +63,7 @@ pub enum Verb {
 /// What a run or an evaluation is made of.
 #[derive(Clone, Debug, Args)]
 pub struct CellArgs {
-    /// The skill file.
+    /// The skill file; `run` takes a task file, too.
     pub skill: PathBuf,
     /// The robot file.
     #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
@@ -74,7 +74,8 @@ pub struct CellArgs {
     /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
-    /// How often the robot may look and reach for the object if its hand closes on nothing.
+    /// How often the robot may look and reach for the object if its hand closes on nothing; a
+    /// task says itself how often its steps are tried.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
     /// Load a trusted dynamic library and let it serve its kind; may be repeated.

@@ -20,6 +20,16 @@ pub fn check(path: &Path, known: &KnownMethods) -> Vec<Diagnostic> {
     }
 }
 
+/// A fault for each of `names`, which the file at `path` names, that is no object and no set.
+pub fn unknown_objects(path: &Path, names: &[&str]) -> Vec<Diagnostic> {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    let placed = |name: &&str| {
+        let at = text.find(&format!("\"{name}\"")).unwrap_or(0);
+        objects::unknown(name).map(|fault| fault.at_offset(path, &text, at))
+    };
+    names.iter().filter_map(placed).collect()
+}
+
 /// Object files are told by their lists of vertices.
 fn is_object(path: &Path) -> bool {
     fs::read_to_string(path)

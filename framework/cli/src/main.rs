@@ -14,6 +14,7 @@ mod picture;
 mod rate;
 mod shown;
 mod simulated;
+mod site;
 mod targets;
 mod threads;
 mod verbs;

@@ -10,5 +10,6 @@ pub mod plugins;
 pub mod reconstruction;
 pub mod run;
 pub mod sheet;
+pub mod task;
 pub mod teach;
 pub mod train;

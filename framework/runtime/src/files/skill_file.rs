@@ -1,8 +1,8 @@
 //! Reading a skill.
 
 use super::codes::{Family, Fault};
-use super::resolver::Resolver;
 use super::pose::RawPose;
+use super::resolver::Resolver;
 use super::source::Source;
 use super::spanned::Spanned;
 use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};

@@ -58,9 +58,23 @@ impl Task {
         self.steps.iter().for_each(|step| step.collect(&mut uses));
         uses
     }
+
+    /// The objects that its steps name, in the order of the file.
+    pub fn objects(&self) -> Vec<&str> {
+        let mut objects = Vec::new();
+        self.steps.iter().for_each(|step| step.objects(&mut objects));
+        objects
+    }
 }
 
 impl TaskStep {
+    fn objects<'a>(&'a self, objects: &mut Vec<&'a str>) {
+        objects.extend(self.objects.iter().map(String::as_str));
+        if let Work::Sequence(steps) | Work::Fallback(steps) = &self.work {
+            steps.iter().for_each(|step| step.objects(objects));
+        }
+    }
+
     fn collect<'a>(&'a self, uses: &mut Vec<&'a SkillUse>) {
         match &self.work {
             Work::Skill(skill) => uses.push(skill),

@@ -231,7 +231,8 @@ impl Reader<'_> {
         let file = format!("{wanted}.toml");
         let folders = folders(self.resolver.source.folder());
         let Some(path) = folders.iter().map(|f| f.join(&file)).find(|path| path.is_file()) else {
-            let cause = format!("there is no skill {wanted:?} beside the task or in the folder above");
+            let cause =
+                format!("there is no skill {wanted:?} beside the task or in the folder above");
             let fault = self.resolver.source.fault(Fault::Reference, name.span(), cause);
             let known = skills(&folders, &self.resolver.source.path);
             self.resolver.note(fault.suggest(&wanted, known.iter().map(String::as_str)));
@@ -239,7 +240,8 @@ impl Reader<'_> {
         };
         if !self.skills.contains_key(&path) {
             let read = Skill::read(&path, self.known);
-            let read = read.map_err(|faults| faults.into_iter().for_each(|f| self.resolver.note(f)));
+            let read =
+                read.map_err(|faults| faults.into_iter().for_each(|f| self.resolver.note(f)));
             self.skills.insert(path.clone(), read.ok());
         }
         self.skills[&path].clone()
@@ -262,7 +264,9 @@ fn skills(folders: &[PathBuf], task: &Path) -> BTreeSet<String> {
     let entries = folders.iter().filter_map(|folder| fs::read_dir(folder).ok()).flatten();
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
     paths
-        .filter(|path| path.extension().is_some_and(|e| e == "toml") && path.file_name() != task.file_name())
+        .filter(|path| {
+            path.extension().is_some_and(|e| e == "toml") && path.file_name() != task.file_name()
+        })
         .filter_map(|path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()))
         .collect()
 }

@@ -68,9 +68,8 @@ pub(super) fn require(
 ) {
     for (run, assignment, requires) in &runs {
         // The hand of a robot that may not move is not asked.
-        let asked = |asked: &&Precondition| {
-            !(assignment.dry_run && **asked == Precondition::HandEmpty)
-        };
+        let asked =
+            |asked: &&Precondition| !(assignment.dry_run && **asked == Precondition::HandEmpty);
         let asked: Vec<_> = requires.0.iter().filter(asked).collect();
         if asked.is_empty() {
             continue;

@@ -58,8 +58,12 @@ fn withdrawn(plugins: &mut Plugins, assignment: &Assignment) -> Result<Acted, St
             at(model.tool_pose(model.home())),
         ];
         // Whatever is in the hand is let go of there.
-        let task =
-            MotionTask { start: &start, holding: true, key_poses: &key_poses, obstacles: &obstacles };
+        let task = MotionTask {
+            start: &start,
+            holding: true,
+            key_poses: &key_poses,
+            obstacles: &obstacles,
+        };
         let outcome = plugins.motion.plan(model, plugins.kinematics.as_ref(), &task);
         match outcome.map_err(|e| e.to_string())? {
             MotionOutcome::Planned { program, .. } => {

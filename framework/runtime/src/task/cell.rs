@@ -8,12 +8,12 @@ use seeone_plugin::{Kind, Setup};
 
 /// The cell around a task.
 pub trait Cell {
-    /// Lays an object before the robot; `plugins` then see and judge it. The robot stays where
-    /// it is.
+    /// Lays an object, or one of a set, before the robot, and tells its name; `plugins` then see
+    /// and judge it. The robot stays where it is.
     ///
     /// # Errors
     /// Why it cannot be laid there.
-    fn present(&mut self, object: &str, plugins: &mut Plugins) -> Result<(), String>;
+    fn present(&mut self, object: &str, plugins: &mut Plugins) -> Result<String, String>;
 
     /// Makes `plugins` those that `methods` names. Camera, robot and judge belong to the cell
     /// and stay.
@@ -47,11 +47,15 @@ pub fn exchange(
         };
         match kind {
             Kind::Camera | Kind::Robot => {}
-            Kind::Perception => plugins.perception = registry.perception.build(name(kind), &setup)?,
+            Kind::Perception => {
+                plugins.perception = registry.perception.build(name(kind), &setup)?
+            }
             Kind::Encoding => plugins.encoding = registry.encoding.build(name(kind), &setup)?,
             Kind::Alignment => plugins.alignment = registry.alignment.build(name(kind), &setup)?,
             Kind::Transfer => plugins.transfer = registry.transfer.build(name(kind), &setup)?,
-            Kind::Kinematics => plugins.kinematics = registry.kinematics.build(name(kind), &setup)?,
+            Kind::Kinematics => {
+                plugins.kinematics = registry.kinematics.build(name(kind), &setup)?
+            }
             Kind::Motion => plugins.motion = registry.motion.build(name(kind), &setup)?,
         }
     }

@@ -91,8 +91,15 @@ fn begin(world: &mut World, step: Entity) {
     let mut around = world.remove_non_send::<Around>().expect("the cell stands around every task");
     let laid = around.0.present(&object, &mut world.non_send_mut::<Bench>().plugins);
     world.insert_non_send(around);
-    if let Err(why) = laid {
-        end(world, step, State::Failed, Some(format!("{object} cannot be laid there: {why}")));
+    match laid {
+        Ok(name) => {
+            if let Some(mut node) = world.get_mut::<Node>(step) {
+                node.object = Some(name);
+            }
+        }
+        Err(why) => {
+            end(world, step, State::Failed, Some(format!("{object} cannot be laid there: {why}")));
+        }
     }
 }
 

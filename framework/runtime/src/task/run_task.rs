@@ -1,17 +1,16 @@
 //! The ECS world of a task: its tree, and one run after another.
 
+use super::State;
 use super::cell::Cell;
 use super::decide::{Around, Next, Root, decide};
 use super::node::{Ended, Node, Prepared, Told};
 use super::outcome::{TaskEvent, TaskOutcome};
 use super::spawn::{Prepare, spawn};
-use super::State;
 use crate::files::Task;
 use crate::plugins::Plugins;
 use crate::run::{Bench, Hooks, StageEvent, Withdraw, carry_out};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
-use seeone_core::Diagnostic;
 use std::cell::{Cell as Shared, RefCell};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -59,13 +58,13 @@ impl Teller {
 ///
 /// # Errors
 /// What `prepare` finds wrong with any use of a skill, before anything moves.
-pub fn run_task(
+pub fn run_task<E>(
     task: &Task,
-    prepare: Prepare,
+    prepare: Prepare<E>,
     plugins: Plugins,
     cell: Box<dyn Cell>,
     hooks: TaskHooks,
-) -> Result<TaskOutcome, Diagnostic> {
+) -> Result<TaskOutcome, E> {
     let TaskHooks { clock, progress } = hooks;
     let teller = Teller { progress: Rc::new(RefCell::new(progress)), depth: Rc::default() };
     let stages = teller.clone();
@@ -104,6 +103,9 @@ fn run_skill(world: &mut World, step: Entity, number: usize, failed_before: bool
     if let Err(reason) = equipped {
         return Ended { done: false, reason };
     }
+    if let Some(object) = object_of(world, step) {
+        assignment.object = object;
+    }
     assignment.recording = assignment.recording.map(|path| numbered(&path, number, &name));
     let run = world.spawn((assignment, requires, ChildOf(step))).id();
     if failed_before {
@@ -113,6 +115,13 @@ fn run_skill(world: &mut World, step: Entity, number: usize, failed_before: bool
     let ended = Ended { done: outcome.failed_at.is_none(), reason: outcome.reason.clone() };
     world.entity_mut(run).insert(Told(outcome));
     ended
+}
+
+/// What lies before the robot in `step`: what was laid there as the nearest of the steps around
+/// it began; none when that is the first object.
+fn object_of(world: &World, step: Entity) -> Option<String> {
+    let object = world.get::<Node>(step).and_then(|node| node.object.clone());
+    object.or_else(|| object_of(world, world.get::<ChildOf>(step)?.parent()))
 }
 
 /// `out/dress.mcap` -> `out/dress-02-wear.mcap`.

@@ -4,14 +4,13 @@ use super::node::{Composition, Node, Prepared, Progress, State};
 use crate::files::{SkillUse, Task, TaskStep, Work};
 use crate::run::{Assignment, Requires};
 use bevy_ecs::prelude::*;
-use seeone_core::Diagnostic;
 
 /// Makes an assignment of a use of a skill.
-pub(super) type Prepare<'a> = &'a mut dyn FnMut(&SkillUse) -> Result<Assignment, Diagnostic>;
+pub(super) type Prepare<'a, E> = &'a mut dyn FnMut(&SkillUse) -> Result<Assignment, E>;
 
 /// Spawns the tree with every assignment prepared, so that whatever can be found wrong before
 /// anything moves is; its root.
-pub(super) fn spawn(world: &mut World, task: &Task, prepare: Prepare) -> Result<Entity, Diagnostic> {
+pub(super) fn spawn<E>(world: &mut World, task: &Task, prepare: Prepare<E>) -> Result<Entity, E> {
     let root = Node {
         name: task.name.clone(),
         composition: Composition::Sequence,
@@ -24,13 +23,13 @@ pub(super) fn spawn(world: &mut World, task: &Task, prepare: Prepare) -> Result<
     Ok(root)
 }
 
-fn spawn_step(
+fn spawn_step<E>(
     world: &mut World,
     step: &TaskStep,
     parent: Entity,
     depth: usize,
-    prepare: Prepare,
-) -> Result<(), Diagnostic> {
+    prepare: Prepare<E>,
+) -> Result<(), E> {
     if let [_, _, ..] = step.objects[..] {
         let each = Node {
             name: step.name.clone(),

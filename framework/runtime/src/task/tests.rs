@@ -9,6 +9,7 @@ use crate::plugins::Plugins;
 use crate::run::Precondition;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
+use std::convert::Infallible;
 use std::rc::Rc;
 
 /// A cell in which every run has a behaviour of its own, the last one again and again.
@@ -20,9 +21,9 @@ struct Behaving {
 }
 
 impl Cell for Behaving {
-    fn present(&mut self, object: &str, _: &mut Plugins) -> Result<(), String> {
+    fn present(&mut self, object: &str, _: &mut Plugins) -> Result<String, String> {
         self.asked.borrow_mut().push(format!("lay {object}"));
-        if object == "lost" { Err("it is lost".into()) } else { Ok(()) }
+        if object == "lost" { Err("it is lost".into()) } else { Ok(object.to_owned()) }
     }
 
     fn equip(&mut self, methods: &Methods, plugins: &mut Plugins) -> Result<(), String> {
@@ -79,11 +80,8 @@ impl Carried {
 }
 
 fn skill(fake: &FakeCell, name: &str) -> TaskStep {
-    let used = SkillUse {
-        skill: fake.skill.clone(),
-        requires: Vec::new(),
-        targets: BTreeMap::new(),
-    };
+    let used =
+        SkillUse { skill: fake.skill.clone(), requires: Vec::new(), targets: BTreeMap::new() };
     TaskStep { name: name.into(), work: Work::Skill(Box::new(used)), tries: 1, objects: Vec::new() }
 }
 
@@ -109,7 +107,7 @@ fn carried(fake: FakeCell, steps: Vec<TaskStep>, behaviours: &[Behaviour]) -> Ca
         }),
         progress: Box::new(move |event: &TaskEvent| telling.borrow_mut().push(event.clone())),
     };
-    let mut prepare = |_: &SkillUse| Ok(fake.assignment());
+    let mut prepare = |_: &SkillUse| Ok::<_, Infallible>(fake.assignment());
     let outcome = run_task(&task, &mut prepare, fake.plugins(WELL), cell, hooks).unwrap();
     Carried { outcome, asked: asked.take(), told: told.take() }
 }
@@ -219,6 +217,7 @@ fn every_object_has_its_turn_whatever_becomes_of_the_others() {
     assert_eq!(wear.composition, Composition::Each);
     assert_eq!(wear.steps.iter().map(|s| s.runs.len()).collect::<Vec<_>>(), [2, 0, 2, 1]);
     assert_eq!(wear.steps[0].object.as_deref(), Some("one"));
+    assert_eq!(wear.steps[3].runs[0].object, "three");
     assert_eq!(
         each.outcome.reason,
         "wear: wear-lost: lost cannot be laid there: it is lost; \
@@ -336,7 +335,7 @@ fn every_run_of_a_task_is_recorded_under_its_number_and_step() {
     let mut prepare = |_: &SkillUse| {
         let mut assignment = fake.assignment();
         assignment.recording = Some(folder.join("task.mcap"));
-        Ok(assignment)
+        Ok::<_, Infallible>(assignment)
     };
     let hooks = TaskHooks::default();
     let outcome = run_task(&task, &mut prepare, fake.plugins(WELL), cell, hooks).unwrap();
