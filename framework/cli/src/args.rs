@@ -4,6 +4,7 @@ use clap::{
     ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand, ValueEnum, value_parser,
 };
 use seeone_plugin::Kind;
+use seeone_runtime::files::Family;
 use seeone_runtime::methods::parse_override;
 use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 use std::path::PathBuf;
@@ -50,8 +51,14 @@ pub enum Verb {
     ///
     /// Exit status 0 once everything is answered, whatever the answers say.
     Ik(IkArgs),
-    /// Check skill, scene, robot, object, cloud and weights files.
+    /// Check skill, task, scene, robot, object, cloud and weights files, and trusted libraries.
     Check(CheckArgs),
+    /// Print the JSON Schema of a kind of file, for editors.
+    Schema {
+        /// The kind of file: skill, task, scene or robot.
+        #[arg(value_parser = family)]
+        kind: Family,
+    },
     /// Plugins: list what is built in, trust a dynamic library.
     Plugins {
         /// What to do with them.
@@ -403,6 +410,12 @@ pub struct CheckArgs {
     /// The files.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// Whether this robot reaches the poses of skills and tasks.
+    #[arg(long, value_name = "FILE")]
+    pub robot: Option<PathBuf>,
+    /// Whether this scene has the frames of skills and tasks.
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
     /// As a JSON array of faults.
     #[arg(long)]
     pub json: bool,
@@ -430,6 +443,12 @@ const FRAMES: NonZeroUsize = NonZeroUsize::new(4000).expect("not zero");
 const VIEWS: NonZeroUsize = NonZeroUsize::new(2).expect("not zero");
 /// Most views of a moment.
 const MOST_VIEWS: usize = 4;
+
+fn family(text: &str) -> Result<Family, String> {
+    let known = Family::ALL.map(Family::name);
+    let family = Family::ALL.into_iter().find(|family| family.name() == text);
+    family.ok_or_else(|| format!("known: {}", known.join(", ")))
+}
 
 fn frames(text: &str) -> Result<NonZeroUsize, String> {
     let frames: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;

@@ -6,6 +6,7 @@ mod builtin;
 mod console;
 mod faults;
 mod files;
+mod fits;
 mod follow;
 mod motion_table;
 mod objects;
@@ -15,6 +16,7 @@ mod rate;
 mod shown;
 mod simulated;
 mod site;
+mod tables;
 mod targets;
 mod threads;
 mod verbs;
@@ -77,6 +79,7 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Train(args) => verbs::train::run(args),
         Verb::Ik(args) => verbs::ik::run(args),
         Verb::Check(args) => verbs::check::run(args),
+        Verb::Schema { kind } => verbs::schema::run(*kind),
         Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
         Verb::Plugins { action: PluginsAction::Trust { library } } => {
             verbs::plugins::trust(library)

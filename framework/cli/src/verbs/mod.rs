@@ -9,6 +9,7 @@ pub mod perception;
 pub mod plugins;
 pub mod reconstruction;
 pub mod run;
+pub mod schema;
 pub mod sheet;
 pub mod task;
 pub mod teach;

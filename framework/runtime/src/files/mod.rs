@@ -7,6 +7,7 @@
 
 mod check;
 mod codes;
+mod locate;
 mod obstacle;
 mod pose;
 mod resolver;
@@ -24,6 +25,7 @@ mod task_file;
 
 pub use check::{check, family_of};
 pub use codes::Family;
+pub use locate::locate;
 pub use robot_file::RobotFile;
 pub use scene::{Drop, Head, Scene, Table};
 pub use schema::schema;

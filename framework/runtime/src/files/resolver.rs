@@ -13,6 +13,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// The longest name.
 const LONGEST_NAME: usize = 64;
+/// The farthest coordinate of a pose, metres: no robot's room is larger.
+const FARTHEST_M: f64 = 10.0;
 
 /// Checks values of one file. A check that fails leaves its fault here and gives back a
 /// stand-in, which nobody sees: [`Resolver::finish`] then gives the faults instead.
@@ -91,9 +93,16 @@ impl<'a> Resolver<'a> {
         self.numbers(key, value, range).into()
     }
 
-    /// A pose: finite, and its quaternion of unit length.
+    /// A pose: in the room, and its quaternion of unit length.
     pub(super) fn pose(&mut self, key: &str, value: &Spanned<RawPose>) -> Pose {
-        PoseFields::from(value.get_ref()).resolve().unwrap_or_else(|cause| {
+        let fields = PoseFields::from(value.get_ref());
+        if let Some(far) = fields.xyz_m.iter().find(|v| v.abs() > FARTHEST_M) {
+            let cause = format!(
+                "{key}: a coordinate of {far}, but it must lie in -{FARTHEST_M} to {FARTHEST_M}"
+            );
+            self.fault(Fault::Range, value.span(), cause);
+        }
+        fields.resolve().unwrap_or_else(|cause| {
             self.fault(Fault::Pose, value.span(), format!("{key}: {cause}"));
             Pose::identity()
         })

@@ -78,11 +78,17 @@ struct RawCollision {
 #[schemars(rename = "gripper")]
 struct RawGripper {
     /// Smallest and largest grip force, newtons.
-    force_n: [f64; 2],
+    force_n: Spanned<[f64; 2]>,
     /// `[opening, reach]`, metres, openings rising: how far the finger tips are from the flange
     /// when the pads are that far apart.
-    reach_m: Vec<(f64, f64)>,
+    reach_m: Spanned<Vec<(f64, f64)>>,
 }
+
+/// The farthest turn of a joint at home, radians: its limits are the URDF's.
+const FARTHEST_RAD: f64 = 100.0;
+/// The strongest gripper, newtons, and its longest fingers and widest opening, metres.
+const STRONGEST_N: f64 = 1000.0;
+const LONGEST_M: f64 = 1.0;
 
 /// A robot file. The arm itself is checked when [`RobotFile::model`] reads it.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,7 +156,13 @@ fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
     RobotOptions {
         base: raw.base.as_ref().map_or_else(Pose::identity, |pose| resolver.pose("base", pose)),
         tool_link: raw.tool_link.unwrap_or(default.tool_link),
-        home: raw.home_rad.map(Spanned::into_inner),
+        home: raw.home_rad.map(|home| {
+            for position in home.get_ref() {
+                let position = Spanned::new(home.span(), *position);
+                resolver.number("home_rad", &position, -FARTHEST_RAD..=FARTHEST_RAD);
+            }
+            home.into_inner()
+        }),
         acceleration: resolver.number_or(
             "acceleration_rad_s2",
             acceleration,
@@ -160,10 +172,18 @@ fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
         jerk: resolver.number_or("jerk_rad_s3", jerk, default.jerk, 1.0..=1e5),
         unchecked_pairs: [raw.collision.always, raw.collision.never].concat(),
         gripper: raw.gripper.map_or(default.gripper, |gripper| GripperOptions {
-            force_n: gripper.force_n,
-            reach_m: gripper.reach_m,
+            force_n: resolver.numbers("force_n", &gripper.force_n, 0.0..=STRONGEST_N),
+            reach_m: reach(resolver, &gripper.reach_m),
         }),
     }
+}
+
+fn reach(resolver: &mut Resolver, raw: &Spanned<Vec<(f64, f64)>>) -> Vec<(f64, f64)> {
+    for (opening_m, reach_m) in raw.get_ref() {
+        let entry = Spanned::new(raw.span(), [*opening_m, *reach_m]);
+        resolver.numbers("reach_m", &entry, 0.0..=LONGEST_M);
+    }
+    raw.get_ref().clone()
 }
 
 fn config(

@@ -13,6 +13,7 @@ use seeone_core::head::SEMI_AXIS_M;
 use seeone_core::{Diagnostic, HeadSize, Intrinsics};
 use seeone_plugin::Kind;
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// A scene file: what stands where, and which object lies on the table.
@@ -102,6 +103,8 @@ struct RawDrop {
 const SOFT_M: f64 = 0.03;
 /// The farthest coordinate of a table or a drop zone, metres.
 const FARTHEST_M: f64 = 5.0;
+/// The focal lengths of a camera, pixels.
+const FOCAL_PIXELS: RangeInclusive<f64> = 1.0..=1e5;
 /// The most pixels of an image.
 const MOST_PIXELS: usize = 4 << 20;
 
@@ -200,8 +203,17 @@ fn intrinsics(resolver: &mut Resolver, raw: &Spanned<RawIntrinsics>) -> Intrinsi
         let cause = format!("an image of {} x {} pixels", lens.width, lens.height);
         resolver.fault(Fault::Range, raw.span(), cause);
     }
-    if lens.fx <= 0.0 || lens.fy <= 0.0 {
-        resolver.fault(Fault::Range, raw.span(), "the focal lengths fx and fy must be positive");
+    if ![lens.fx, lens.fy].iter().all(|f| FOCAL_PIXELS.contains(f)) {
+        let (low, high) = FOCAL_PIXELS.into_inner();
+        let cause = format!("the focal lengths fx and fy must lie in {low} to {high}");
+        resolver.fault(Fault::Range, raw.span(), cause);
+    }
+    if ![lens.cx, lens.cy].iter().all(|c| c.abs() <= *FOCAL_PIXELS.end()) {
+        resolver.fault(
+            Fault::Range,
+            raw.span(),
+            "the principal point cx, cy lies far off the image",
+        );
     }
     lens
 }

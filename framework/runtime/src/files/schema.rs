@@ -17,5 +17,33 @@ pub fn schema(family: Family) -> Value {
         Family::Scene => schema_for!(RawScene),
         Family::Robot => schema_for!(RawRobot),
     };
-    schema.to_value()
+    let mut schema = schema.to_value();
+    without_null(&mut schema);
+    schema
+}
+
+/// TOML knows no null: what is not said is left out.
+fn without_null(schema: &mut Value) {
+    let null = |one: &Value| one == "null" || one["type"] == "null";
+    if let Some(of) = schema.as_object_mut() {
+        for key in ["type", "anyOf"] {
+            let Some(Value::Array(choices)) = of.get_mut(key) else { continue };
+            choices.retain(|one| !null(one));
+            if let [only] = &choices[..] {
+                let only = only.clone();
+                match only {
+                    Value::Object(only) => {
+                        of.remove(key);
+                        of.extend(only);
+                    }
+                    only => _ = of.insert(key.to_owned(), only),
+                }
+            }
+        }
+    }
+    match schema {
+        Value::Object(of) => of.values_mut().for_each(without_null),
+        Value::Array(items) => items.iter_mut().for_each(without_null),
+        _ => {}
+    }
 }

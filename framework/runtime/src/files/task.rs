@@ -3,6 +3,7 @@
 use super::Skill;
 use crate::run::Precondition;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// A task. One that was read from a file has at least one step, and no two steps of one name.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,8 @@ pub enum Work {
 /// A skill as a task uses it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkillUse {
+    /// The skill's file.
+    pub path: PathBuf,
     /// The skill, its methods those of the task where the task names any.
     pub skill: Skill,
     /// What must be true before.

@@ -197,7 +197,7 @@ impl Reader<'_> {
     fn skill_use(&mut self, raw: &RawStep, name: &Spanned<String>) -> Option<SkillUse> {
         let requires = raw.require.iter().filter_map(|name| self.precondition(name)).collect();
         let methods = methods(&mut self.resolver, &raw.methods, self.known);
-        let mut skill = self.skill(name)?;
+        let (path, mut skill) = self.skill(name)?;
         skill.methods.extend(methods);
         let targets = raw.targets.iter().map(|(frame, target)| {
             let frames = &skill.demonstration.frames;
@@ -211,7 +211,7 @@ impl Reader<'_> {
             (frame.get_ref().clone(), self.resolver.name("targets", target))
         });
         let targets = targets.collect();
-        Some(SkillUse { skill, requires, targets })
+        Some(SkillUse { path, skill, requires, targets })
     }
 
     fn precondition(&mut self, name: &Spanned<String>) -> Option<Precondition> {
@@ -226,7 +226,7 @@ impl Reader<'_> {
     }
 
     /// The skill of this name. Its own faults are told once, whoever names it.
-    fn skill(&mut self, name: &Spanned<String>) -> Option<Skill> {
+    fn skill(&mut self, name: &Spanned<String>) -> Option<(PathBuf, Skill)> {
         let wanted = self.resolver.name("skill", name);
         let file = format!("{wanted}.toml");
         let folders = folders(self.resolver.source.folder());
@@ -244,7 +244,8 @@ impl Reader<'_> {
                 read.map_err(|faults| faults.into_iter().for_each(|f| self.resolver.note(f)));
             self.skills.insert(path.clone(), read.ok());
         }
-        self.skills[&path].clone()
+        let skill = self.skills[&path].clone()?;
+        Some((path, skill))
     }
 }
 

@@ -80,8 +80,12 @@ impl Carried {
 }
 
 fn skill(fake: &FakeCell, name: &str) -> TaskStep {
-    let used =
-        SkillUse { skill: fake.skill.clone(), requires: Vec::new(), targets: BTreeMap::new() };
+    let used = SkillUse {
+        path: "cap-wearing.toml".into(),
+        skill: fake.skill.clone(),
+        requires: Vec::new(),
+        targets: BTreeMap::new(),
+    };
     TaskStep { name: name.into(), work: Work::Skill(Box::new(used)), tries: 1, objects: Vec::new() }
 }
 
