@@ -51,6 +51,12 @@ pub enum Verb {
     ///
     /// Exit status 0 once everything is answered, whatever the answers say.
     Ik(IkArgs),
+    /// Write files to begin with, which pass `check` as they are: a skill, a robot.
+    New {
+        /// What to begin.
+        #[command(subcommand)]
+        action: NewAction,
+    },
     /// Check skill, task, scene, robot, object, cloud and weights files, and trusted libraries.
     Check(CheckArgs),
     /// Print the JSON Schema of a kind of file, for editors.
@@ -402,6 +408,44 @@ pub struct IkArgs {
     /// Seed of the solver's restarts.
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
+}
+
+/// `new ...`.
+#[derive(Debug, Subcommand)]
+pub enum NewAction {
+    /// A skill, begun from the demonstration of another.
+    Skill(NewSkillArgs),
+    /// A robot file for an arm that a URDF describes.
+    Robot(NewRobotArgs),
+}
+
+/// `new skill`.
+#[derive(Clone, Debug, Args)]
+pub struct NewSkillArgs {
+    /// Its name: small letters, digits and hyphens.
+    pub name: String,
+    /// The folder to write into.
+    #[arg(long, value_name = "FOLDER", default_value = "skills")]
+    pub folder: PathBuf,
+    /// The skill that it is begun from.
+    #[arg(long, value_name = "FILE", default_value = "skills/cap-wearing.toml")]
+    pub from: PathBuf,
+}
+
+/// `new robot`.
+#[derive(Clone, Debug, Args)]
+pub struct NewRobotArgs {
+    /// Its name: small letters, digits and hyphens.
+    pub name: String,
+    /// The description of the arm with its gripper; copied into the folder unless it lies there.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: PathBuf,
+    /// The tool's link: z along the approach, y along the closing direction, between the pads.
+    #[arg(long, value_name = "LINK", default_value = "tcp")]
+    pub tool_link: String,
+    /// The folder to write into.
+    #[arg(long, value_name = "FOLDER", default_value = "robots")]
+    pub folder: PathBuf,
 }
 
 /// `check`.

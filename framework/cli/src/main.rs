@@ -23,7 +23,7 @@ mod verbs;
 mod workcell;
 
 use anyhow::Result;
-use args::{Cli, EvalArgs, EvalPart, ObjectsAction, PluginsAction, Verb};
+use args::{Cli, EvalArgs, EvalPart, NewAction, ObjectsAction, PluginsAction, Verb};
 use clap::Parser;
 use faults::Faults;
 use std::process::ExitCode;
@@ -78,6 +78,8 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Data(args) => verbs::data::run(args),
         Verb::Train(args) => verbs::train::run(args),
         Verb::Ik(args) => verbs::ik::run(args),
+        Verb::New { action: NewAction::Skill(args) } => verbs::new::skill::run(args),
+        Verb::New { action: NewAction::Robot(args) } => verbs::new::robot::run(args),
         Verb::Check(args) => verbs::check::run(args),
         Verb::Schema { kind } => verbs::schema::run(*kind),
         Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),

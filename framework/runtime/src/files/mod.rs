@@ -7,6 +7,7 @@
 
 mod check;
 mod codes;
+mod exactly;
 mod locate;
 mod obstacle;
 mod pose;

@@ -1,6 +1,7 @@
 //! What else stands in a scene, e.g. the stand of the camera or a hook on its wall.
 
 use super::codes::Fault;
+use super::exactly::Exactly;
 use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::spanned::Spanned;
@@ -22,7 +23,7 @@ pub(super) struct RawObstacle {
     /// Its middle.
     pose: Spanned<RawPose>,
     /// Edges of a box, metres.
-    size_m: Option<Spanned<[f64; 3]>>,
+    size_m: Option<Spanned<Exactly<f64, 3>>>,
     /// Radius of a cylinder, metres.
     #[schemars(range(min = 1e-3, max = LONGEST_M))]
     radius_m: Option<Spanned<f64>>,

@@ -1,5 +1,6 @@
 //! Poses and intrinsics as files write them.
 
+use super::exactly::Exactly;
 use schemars::JsonSchema;
 use seeone_core::Intrinsics;
 use seeone_core::pose::PoseFields;
@@ -11,14 +12,14 @@ use serde::Deserialize;
 #[schemars(rename = "pose")]
 pub(super) struct RawPose {
     /// Position, metres.
-    xyz_m: [f64; 3],
+    xyz_m: Exactly<f64, 3>,
     /// Orientation as a quaternion of unit length, scalar last.
-    quat_xyzw: [f64; 4],
+    quat_xyzw: Exactly<f64, 4>,
 }
 
 impl From<&RawPose> for PoseFields {
     fn from(raw: &RawPose) -> Self {
-        Self { xyz_m: raw.xyz_m, quat_xyzw: raw.quat_xyzw }
+        Self { xyz_m: raw.xyz_m.0, quat_xyzw: raw.quat_xyzw.0 }
     }
 }
 

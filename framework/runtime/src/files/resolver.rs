@@ -2,6 +2,7 @@
 //! a user mends a file in one go.
 
 use super::codes::Fault;
+use super::exactly::Exactly;
 use super::pose::RawPose;
 use super::source::Source;
 use super::spanned::Spanned;
@@ -74,20 +75,22 @@ impl<'a> Resolver<'a> {
     pub(super) fn numbers<const N: usize>(
         &mut self,
         key: &str,
-        value: &Spanned<[f64; N]>,
+        value: &Spanned<Exactly<f64, N>>,
         range: RangeInclusive<f64>,
     ) -> [f64; N] {
-        for number in value.get_ref() {
-            self.number(key, &Spanned::new(value.span(), *number), range.clone());
+        let Exactly(numbers) = value.get_ref();
+        // The first that lies outside says it for all.
+        if let Some(number) = numbers.iter().find(|number| !range.contains(number)) {
+            self.number(key, &Spanned::new(value.span(), *number), range);
         }
-        *value.get_ref()
+        *numbers
     }
 
     /// Three lengths or coordinates, each within a range.
     pub(super) fn vector(
         &mut self,
         key: &str,
-        value: &Spanned<[f64; 3]>,
+        value: &Spanned<Exactly<f64, 3>>,
         range: RangeInclusive<f64>,
     ) -> Vector3<f64> {
         self.numbers(key, value, range).into()

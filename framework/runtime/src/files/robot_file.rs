@@ -2,6 +2,8 @@
 
 use super::KnownMethods;
 use super::codes::{Family, Fault};
+use super::exactly::Exactly;
+use super::locate::locate;
 use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
@@ -67,10 +69,10 @@ struct RawLimits {
 struct RawCollision {
     /// Pairs that touch at every posture.
     #[serde(default)]
-    always: Vec<[String; 2]>,
+    always: Vec<Exactly<String, 2>>,
     /// Pairs that touch at no posture.
     #[serde(default)]
-    never: Vec<[String; 2]>,
+    never: Vec<Exactly<String, 2>>,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -78,10 +80,10 @@ struct RawCollision {
 #[schemars(rename = "gripper")]
 struct RawGripper {
     /// Smallest and largest grip force, newtons.
-    force_n: Spanned<[f64; 2]>,
+    force_n: Spanned<Exactly<f64, 2>>,
     /// `[opening, reach]`, metres, openings rising: how far the finger tips are from the flange
     /// when the pads are that far apart.
-    reach_m: Spanned<Vec<(f64, f64)>>,
+    reach_m: Spanned<Vec<Exactly<f64, 2>>>,
 }
 
 /// The farthest turn of a joint at home, radians: its limits are the URDF's.
@@ -141,9 +143,21 @@ impl RobotFile {
     /// # Errors
     /// `R0xx` when the description, or an option of this file against it, is wrong.
     pub fn model(&self) -> Result<RobotModel, Diagnostic> {
-        let told = |fault: Diagnostic| match fault.code {
-            "R013" | "R015" | "R016" => fault.in_file(&self.path),
-            _ => fault,
+        // What this file says of the arm is told at its own key.
+        let told = |fault: Diagnostic| {
+            let key = match fault.code {
+                "R010" => "tool_link",
+                "R013" => "home_rad",
+                "R014" => "gripper",
+                "R015" => "limits",
+                "R016" => "collision",
+                _ => return fault,
+            };
+            match locate(&self.path, &[key]) {
+                // The key is not there: the fault is the description's own.
+                (1, 1) => fault,
+                (line, column) => fault.at_line(&self.path, line, column),
+            }
         };
         RobotModel::from_urdf(&self.urdf, &self.options).map_err(told)
     }
@@ -170,7 +184,11 @@ fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
             0.1..=100.0,
         ),
         jerk: resolver.number_or("jerk_rad_s3", jerk, default.jerk, 1.0..=1e5),
-        unchecked_pairs: [raw.collision.always, raw.collision.never].concat(),
+        unchecked_pairs: [raw.collision.always, raw.collision.never]
+            .into_iter()
+            .flatten()
+            .map(|Exactly(pair)| pair)
+            .collect(),
         gripper: raw.gripper.map_or(default.gripper, |gripper| GripperOptions {
             force_n: resolver.numbers("force_n", &gripper.force_n, 0.0..=STRONGEST_N),
             reach_m: reach(resolver, &gripper.reach_m),
@@ -178,12 +196,12 @@ fn options(resolver: &mut Resolver, raw: RawRobot) -> RobotOptions {
     }
 }
 
-fn reach(resolver: &mut Resolver, raw: &Spanned<Vec<(f64, f64)>>) -> Vec<(f64, f64)> {
-    for (opening_m, reach_m) in raw.get_ref() {
-        let entry = Spanned::new(raw.span(), [*opening_m, *reach_m]);
-        resolver.numbers("reach_m", &entry, 0.0..=LONGEST_M);
-    }
-    raw.get_ref().clone()
+fn reach(resolver: &mut Resolver, raw: &Spanned<Vec<Exactly<f64, 2>>>) -> Vec<(f64, f64)> {
+    let mut entry = |entry: &Exactly<f64, 2>| {
+        let entry = Spanned::new(raw.span(), *entry);
+        resolver.numbers("reach_m", &entry, 0.0..=LONGEST_M).into()
+    };
+    raw.get_ref().iter().map(&mut entry).collect()
 }
 
 fn config(

@@ -1,6 +1,7 @@
 //! Reading a scene.
 
 use super::codes::{Family, Fault};
+use super::exactly::Exactly;
 use super::obstacle::{RawObstacle, obstacle};
 use super::pose::{RawIntrinsics, RawPose};
 use super::resolver::Resolver;
@@ -66,7 +67,7 @@ struct RawHead {
     /// How large it is: `small`, `medium` or `large`; or else `semi_axes_m`.
     size: Option<Spanned<String>>,
     /// Semi-axes of its ellipsoid, metres.
-    semi_axes_m: Option<Spanned<[f64; 3]>>,
+    semi_axes_m: Option<Spanned<Exactly<f64, 3>>>,
     /// Coulomb friction of its surface.
     #[schemars(range(min = 0.0, max = 2.0))]
     friction: Spanned<f64>,
@@ -91,9 +92,9 @@ struct RawCamera {
 #[schemars(rename = "drop")]
 struct RawDrop {
     /// Middle of the zone, metres.
-    centre_xy_m: Spanned<[f64; 2]>,
+    centre_xy_m: Spanned<Exactly<f64, 2>>,
     /// Half the sides of the box in which the object is looked for, metres.
-    half_extents_m: Spanned<[f64; 2]>,
+    half_extents_m: Spanned<Exactly<f64, 2>>,
     /// Height of that box above the table, metres.
     #[schemars(range(min = 0.01, max = FARTHEST_M))]
     crop_height_m: Spanned<f64>,

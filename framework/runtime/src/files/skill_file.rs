@@ -1,6 +1,7 @@
 //! Reading a skill.
 
 use super::codes::{Family, Fault};
+use super::exactly::Exactly;
 use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
@@ -51,7 +52,7 @@ struct RawDemonstration {
     /// first stage.
     cloud: Spanned<String>,
     /// Where the camera stood in `world`, metres.
-    camera_xyz_m: Spanned<[f64; 3]>,
+    camera_xyz_m: Spanned<Exactly<f64, 3>>,
     /// Poses in `world` of the frames that stages are relative to, by name.
     #[serde(default)]
     frames: BTreeMap<Spanned<String>, Spanned<RawPose>>,
