@@ -22,9 +22,9 @@ pub struct Withdraw;
 pub(super) fn withdraw(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment), (With<Withdraw>, Without<Failed>)>,
+    runs: Query<(Entity, &Assignment, &Withdraw), Without<Failed>>,
 ) {
-    for (run, assignment) in &runs {
+    for (run, assignment, _) in &runs {
         if assignment.dry_run {
             continue;
         }

@@ -25,7 +25,7 @@ mod run_task;
 mod spawn;
 
 pub use cell::{Cell, exchange};
-pub use node::State;
+pub use node::{Composition, State};
 pub use outcome::{StepOutcome, TaskEvent, TaskOutcome};
 pub use run_task::{TaskHooks, run_task};
 

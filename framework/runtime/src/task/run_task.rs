@@ -34,10 +34,13 @@ impl Default for TaskHooks {
     }
 }
 
-/// Who is told of steps and of stages, and how deep the stages lie.
+/// Whoever is told of steps and stages.
+type Listener = Box<dyn FnMut(&TaskEvent)>;
+
+/// Tells of steps and of stages, and knows how deep the stages lie.
 #[derive(Clone)]
 pub(super) struct Teller {
-    progress: Rc<RefCell<Box<dyn FnMut(&TaskEvent)>>>,
+    progress: Rc<RefCell<Listener>>,
     depth: Rc<Shared<usize>>,
 }
 

@@ -22,9 +22,9 @@ use std::path::Path;
 const AHEAD: [f64; 5] = [0.35, 0.3, 0.4, 0.5, 0.6];
 const ABOVE_M: [f64; 4] = [0.35, 0.3, 0.4, 0.5];
 /// Postures from which each of these places is sought, ...
-const STARTS: usize = 48;
+const STARTS: usize = 200;
 /// ... and how much lower the arm may be held for a radian less of turning, metres.
-const TURN_M: f64 = 0.02;
+const TURN_M: f64 = 0.005;
 /// Seed of the postures by which the pairs of bodies are sorted, as in `seeone-collision`'s example.
 const SEED: u64 = 1;
 
