@@ -11,6 +11,11 @@ use serde::Serialize;
 use std::rc::Rc;
 use std::time::Instant;
 
+/// Columns for names, while it is not known how long they are, and for each step that another lies
+/// in.
+const WIDTH: usize = 24;
+const INDENT: usize = 2;
+
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Report<'a> {
@@ -51,7 +56,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
     };
     let outcome = run_task(task, &mut prepare, plugins, Box::new(cell), hooks)?;
     console::tell("");
-    tree(&outcome.tree, 0);
+    tree(&outcome.tree, 0, width(&outcome.tree, 0));
     summarise(&outcome);
     if args.json {
         let report = Report { outcome: &outcome, robot, scene: &site.scene.name, seed };
@@ -70,29 +75,37 @@ fn ending(outcome: &TaskOutcome, dry_run: bool) -> Ending {
 }
 
 fn told(event: &TaskEvent) {
-    match event.state {
-        State::Underway => line(event.depth, "..", &event.name, None, None),
-        state => line(
-            event.depth,
-            mark(state),
-            &event.name,
-            (state != State::Skipped).then_some(event.seconds),
-            event.reason.as_deref(),
-        ),
-    }
+    let over = !matches!(event.state, State::Underway | State::Skipped);
+    let seconds = over.then_some(event.seconds);
+    let reason = event.reason.as_deref();
+    line(WIDTH, event.depth, mark(event.state), &event.name, seconds, reason);
 }
 
-/// A step, its runs, and the steps that lie in it.
-fn tree(step: &StepOutcome, depth: usize) {
+/// A step, its runs where it has several, and the steps that lie in it.
+fn tree(step: &StepOutcome, depth: usize, width: usize) {
     let seconds = (step.state != State::Skipped).then_some(step.seconds);
-    line(depth, mark(step.state), &step.name, seconds, step.reason.as_deref());
+    line(width, depth, mark(step.state), &titled(step), seconds, step.reason.as_deref());
     if let [_, _, ..] = step.runs[..] {
         for (index, run) in step.runs.iter().enumerate() {
             let mark = if run.failed_at.is_none() { "ok" } else { "FAIL" };
-            line(depth + 1, mark, &format!("try {}", index + 1), None, Some(&run.reason));
+            line(width, depth + 1, mark, &format!("try {}", index + 1), None, Some(&run.reason));
         }
     }
-    step.steps.iter().for_each(|step| tree(step, depth + 1));
+    step.steps.iter().for_each(|step| tree(step, depth + 1, width));
+}
+
+/// A step's name, with the object that was laid before the robot for it.
+fn titled(step: &StepOutcome) -> String {
+    match &step.object {
+        Some(object) if !step.name.ends_with(object) => format!("{} ({object})", step.name),
+        _ => step.name.clone(),
+    }
+}
+
+/// How wide the names of a tree are, with their indents.
+fn width(step: &StepOutcome, depth: usize) -> usize {
+    let below = step.steps.iter().map(|step| width(step, depth + 1)).max().unwrap_or(0);
+    below.max(titled(step).len() + INDENT * depth).max(WIDTH)
 }
 
 fn mark(state: State) -> &'static str {
@@ -104,10 +117,17 @@ fn mark(state: State) -> &'static str {
     }
 }
 
-fn line(depth: usize, mark: &str, name: &str, seconds: Option<f64>, reason: Option<&str>) {
-    let indent = "  ".repeat(depth);
+fn line(
+    width: usize,
+    depth: usize,
+    mark: &str,
+    name: &str,
+    seconds: Option<f64>,
+    reason: Option<&str>,
+) {
+    let name = " ".repeat(INDENT * depth) + name;
     let seconds = seconds.map_or_else(|| " ".repeat(9), |seconds| format!("{seconds:7.2} s"));
-    let told = format!("  {mark:<4} {:<22} {seconds}  {}", indent + name, reason.unwrap_or(""));
+    let told = format!("  {mark:<4} {name:<width$} {seconds}  {}", reason.unwrap_or_default());
     console::tell(told.trim_end());
 }
 

@@ -27,6 +27,7 @@ mod task_file;
 pub use check::{check, family_of};
 pub use codes::Family;
 pub use locate::locate;
+pub use resolver::is_name;
 pub use robot_file::RobotFile;
 pub use scene::{Drop, Head, Scene, Table};
 pub use schema::schema;

@@ -17,6 +17,14 @@ const LONGEST_NAME: usize = 64;
 /// The farthest coordinate of a pose, metres: no robot's room is larger.
 const FARTHEST_M: f64 = 10.0;
 
+/// Whether a skill, a robot or anything else that a file names may be called so: at most 64 small
+/// letters, digits and hyphens, a letter first.
+pub fn is_name(name: &str) -> bool {
+    name.len() <= LONGEST_NAME
+        && name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+}
+
 /// Checks values of one file. A check that fails leaves its fault here and gives back a
 /// stand-in, which nobody sees: [`Resolver::finish`] then gives the faults instead.
 pub(super) struct Resolver<'a> {
@@ -114,10 +122,7 @@ impl<'a> Resolver<'a> {
     /// A name: small letters, digits and hyphens, beginning with a letter.
     pub(super) fn name(&mut self, key: &str, value: &Spanned<String>) -> String {
         let name = value.get_ref();
-        let well = name.len() <= LONGEST_NAME
-            && name.starts_with(|c: char| c.is_ascii_lowercase())
-            && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
-        if !well {
+        if !is_name(name) {
             let cause = format!(
                 "{key} = {name:?}, but a name is made of at most {LONGEST_NAME} small letters, \
                  digits and hyphens and begins with a letter"

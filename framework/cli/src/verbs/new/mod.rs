@@ -4,6 +4,7 @@ pub mod robot;
 pub mod skill;
 
 use seeone_core::Diagnostic;
+use seeone_runtime::files::is_name;
 use std::path::Path;
 
 /// Refuses a name that no file may have, and to write over what is there.
@@ -11,10 +12,7 @@ use std::path::Path;
 /// # Errors
 /// `F005` for a name, `F004` for what is there already.
 fn vacant(name: &str, paths: &[&Path]) -> Result<(), Diagnostic> {
-    let well = name.starts_with(|c: char| c.is_ascii_lowercase())
-        && name.len() <= 64
-        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
-    if !well {
+    if !is_name(name) {
         let cause = format!("{name:?} is no name");
         return Err(Diagnostic::new("F005", cause)
             .hint("small letters, digits and hyphens, a letter first: my-skill"));
