@@ -377,6 +377,13 @@ fn what_there_is_can_be_asked() {
         assert_eq!(shown.status, Some(0), "{}", shown.stderr);
         assert!(fs::read(picture).expect("a picture").starts_with(b"\x89PNG"));
     }
+    for kind in ["skill", "task", "scene", "robot"] {
+        let path = root().join(format!("docs/schemas/{kind}.json"));
+        let committed = fs::read_to_string(path).expect("a schema");
+        assert_eq!(seeone(["schema", kind]).stdout, committed, "{kind}");
+    }
+    let unknown = seeone(["schema", "skil"]);
+    assert_eq!(unknown.status, Some(2), "{}", unknown.stderr);
     for words in [["--help"], ["--version"]] {
         let call = seeone(words);
         assert_eq!((call.status, call.stderr.as_str()), (Some(0), ""));

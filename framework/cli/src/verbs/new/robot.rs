@@ -14,6 +14,7 @@ use seeone_core::{Diagnostic, Pose};
 use seeone_plugin::motion::Obstacle;
 use seeone_plugin::{Clearance, IkQuery, IkStatus, Kind, Setup};
 use seeone_runtime::Registry;
+use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -24,7 +25,7 @@ const ABOVE_M: [f64; 4] = [0.35, 0.3, 0.4, 0.5];
 /// Postures from which each of these places is sought, ...
 const STARTS: usize = 200;
 /// ... and how much lower the arm may be held for a radian less of turning, metres.
-const TURN_M: f64 = 0.005;
+const TURN_M: f64 = 0.01;
 /// Seed of the postures by which the pairs of bodies are sorted, as in `seeone-collision`'s example.
 const SEED: u64 = 1;
 
@@ -103,8 +104,9 @@ fn home(robot: &RobotModel, registry: &Registry) -> Result<Vec<f64>, Diagnostic>
         let target = robot.base() * Pose::from_parts(place, down);
         let solve = |near: &Vec<f64>| {
             let found = kinematics.solve(robot, &IkQuery::new(&target, near)).ok()?;
-            let free = clearance.contact(&found.joints).is_none();
-            (found.status == IkStatus::Solved && free).then_some(found.joints)
+            let posture = unwound(robot, found.joints);
+            let free = clearance.contact(&posture).is_none();
+            (found.status == IkStatus::Solved && free).then_some(posture)
         };
         let found = starts.iter().filter_map(solve);
         if let Some(home) = found.max_by(|a, b| ease(a).total_cmp(&ease(b))) {
@@ -115,6 +117,18 @@ fn home(robot: &RobotModel, registry: &Registry) -> Result<Vec<f64>, Diagnostic>
         "the arm cannot wait with its hand down in front of its base without touching anything";
     Err(Diagnostic::new("B031", cause)
         .hint("look at the tool link: z along the approach, y along the closing direction"))
+}
+
+/// The same posture without whole turns that a joint could do without.
+fn unwound(robot: &RobotModel, mut posture: Vec<f64>) -> Vec<f64> {
+    for (q, joint) in posture.iter_mut().zip(robot.joints()) {
+        let middle = 0.5 * (joint.lower() + joint.upper());
+        let near = *q - TAU * ((*q - middle) / TAU).round();
+        if joint.allows(near) {
+            *q = near;
+        }
+    }
+    posture
 }
 
 /// How far the tool can be from the base at most, metres: the lengths of all links.
