@@ -72,6 +72,8 @@ const TRIES: RangeInclusive<u32> = 1..=20;
 const DEEPEST: usize = 8;
 /// The most steps of a task, and the most objects of a step.
 const MOST: usize = 100;
+/// The most runs of a task: objects within objects within tries are soon more than anybody means.
+const MOST_RUNS: f64 = 1000.0;
 
 impl Task {
     /// Reads and checks a task with the skills that it names.
@@ -92,6 +94,11 @@ impl Task {
             summary: raw.summary,
             steps: reader.steps(&raw.step, 0..0, 1),
         };
+        let runs: f64 = task.steps.iter().map(most_runs).sum();
+        if runs > MOST_RUNS {
+            let cause = format!("up to {runs} runs, but a task makes at most {MOST_RUNS}");
+            reader.resolver.fault(Fault::Order, raw.step[0].span(), cause);
+        }
         reader.resolver.finish(task)
     }
 }
@@ -139,7 +146,7 @@ impl Reader<'_> {
                 Some(Work::Fallback(self.steps(steps.get_ref(), steps.span(), depth + 1)))
             }
             _ => {
-                let cause = format!("step {name:?} has not one of skill, sequence and fallback");
+                let cause = format!("step {name:?} must have one of skill, sequence and fallback");
                 self.resolver.fault(Fault::Order, raw.name.span(), cause);
                 None
             }
@@ -247,6 +254,15 @@ impl Reader<'_> {
         let skill = self.skills[&path].clone()?;
         Some((path, skill))
     }
+}
+
+/// How many runs a step makes if each but the last of its tries fails at its end.
+fn most_runs(step: &TaskStep) -> f64 {
+    let once = match &step.work {
+        Work::Skill(_) => 1.0,
+        Work::Sequence(steps) | Work::Fallback(steps) => steps.iter().map(most_runs).sum(),
+    };
+    once * step.tries as f64 * step.objects.len().max(1) as f64
 }
 
 /// Where the skills of a task in `folder` lie.

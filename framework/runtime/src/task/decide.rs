@@ -24,6 +24,16 @@ pub(super) fn decide(world: &mut World) {
     world.insert_resource(Next(next));
 }
 
+/// What has become of a step, as far as it goes without a run.
+enum Found {
+    /// This skill's step is to be run for it.
+    ToRun(Entity),
+    /// It ended well, with what.
+    Done(Option<String>),
+    /// It failed, and why.
+    Failed(String),
+}
+
 /// Takes a step as far as it goes without a run, and tells the skill's step that is to be run.
 fn advance(world: &mut World, step: Entity) -> Option<Entity> {
     match state(world, step) {
@@ -32,49 +42,49 @@ fn advance(world: &mut World, step: Entity) -> Option<Entity> {
         State::Done | State::Failed | State::Skipped => return None,
     }
     while state(world, step) == State::Underway {
-        let ended = if node(world, step).composition == Composition::Skill {
-            match world.entity_mut(step).take::<Ended>() {
-                Some(Ended { done: true, reason }) => Ok(Some(reason)),
-                Some(Ended { done: false, reason }) => Err(reason),
-                None => return Some(step),
-            }
-        } else {
-            match compose(world, step) {
-                Ok(ended) => ended,
-                Err(next) => return Some(next),
-            }
+        let found = match node(world, step).composition {
+            Composition::Skill => attempted(world, step),
+            composition => composed(world, step, composition),
         };
-        match ended {
-            Ok(reason) => end(world, step, State::Done, reason),
-            Err(_) if progress(world, step).tries < node(world, step).tries => again(world, step),
-            Err(reason) => end(world, step, State::Failed, Some(reason)),
+        match found {
+            Found::ToRun(skill) => return Some(skill),
+            Found::Done(reason) => end(world, step, State::Done, reason),
+            Found::Failed(_) if progress(world, step).tries < node(world, step).tries => {
+                again(world, step);
+            }
+            Found::Failed(reason) => end(world, step, State::Failed, Some(reason)),
         }
     }
     None
 }
 
-/// How a step of steps ended: well, or why not; or else what is to be run for it.
-fn compose(world: &mut World, step: Entity) -> Result<Result<Option<String>, String>, Entity> {
-    let composition = node(world, step).composition;
+/// How the last run of a skill ended, which is then decided on.
+fn attempted(world: &mut World, step: Entity) -> Found {
+    match world.entity_mut(step).take::<Ended>() {
+        Some(Ended { done: true, reason }) => Found::Done(Some(reason)),
+        Some(Ended { done: false, reason }) => Found::Failed(reason),
+        None => Found::ToRun(step),
+    }
+}
+
+/// How the steps that lie in a step ended, taken together.
+fn composed(world: &mut World, step: Entity, composition: Composition) -> Found {
     let (mut last, mut failed) = (None, Vec::new());
     for child in children(world, step) {
-        if let Some(next) = advance(world, child) {
-            return Err(next);
+        if let Some(skill) = advance(world, child) {
+            return Found::ToRun(skill);
         }
         let done = state(world, child) == State::Done;
-        let Progress { reason, .. } = progress(world, child).clone();
+        let reason = progress(world, child).reason.clone();
         let told = || format!("{}: {}", node(world, child).name, reason.as_deref().unwrap_or(""));
         match (composition, done) {
-            (Composition::Sequence, false) => return Ok(Err(told())),
-            (Composition::Fallback, true) => return Ok(Ok(Some(told()))),
+            (Composition::Sequence, false) => return Found::Failed(told()),
+            (Composition::Fallback, true) => return Found::Done(Some(told())),
             (_, false) => failed.push(told()),
             (_, true) => last = reason,
         }
     }
-    Ok(match failed[..] {
-        [] => Ok(last),
-        _ => Err(failed.join("; ")),
-    })
+    if failed.is_empty() { Found::Done(last) } else { Found::Failed(failed.join("; ")) }
 }
 
 fn begin(world: &mut World, step: Entity) {

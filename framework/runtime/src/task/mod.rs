@@ -2,7 +2,7 @@
 //!
 //! Every step of a task is an entity, child of the step that it lies in, with its [`State`];
 //! every attempt at a skill is one as well, with all that a run leaves. What is to be done next
-//! is found by one system, [`decide`], that walks the tree from its root:
+//! is found by one system, `decide`, that walks the tree from its root:
 //!
 //! | work | is done when | has failed when |
 //! |---|---|---|

@@ -45,9 +45,9 @@ pub struct StepOutcome {
     pub state: State,
     /// The object that was laid before the robot as it began.
     pub object: Option<String>,
-    /// How often it was begun.
+    /// How often it was begun since the step that it lies in was.
     pub tries: usize,
-    /// How long it took, in all tries together, by the clock that was handed in.
+    /// How long these tries took together, seconds by the clock that was handed in.
     pub seconds: f64,
     /// Why it failed, or what it ended with.
     pub reason: Option<String>,
