@@ -52,9 +52,11 @@ impl Against {
                 let task = Task::read(path, known)?;
                 let mut faults = unknown_objects(path, &task.objects());
                 for used in task.uses() {
-                    faults.extend(self.misfits(&used.path, &used.skill, &used.targets));
+                    // A skill that is used twice is told of once.
+                    let misfits = self.misfits(&used.path, &used.skill, &used.targets);
+                    let new: Vec<_> = misfits.into_iter().filter(|m| !faults.contains(m)).collect();
+                    faults.extend(new);
                 }
-                faults.dedup();
                 Ok(faults)
             }
             Family::Scene => {

@@ -137,7 +137,6 @@ fn in_words_of_the_file(message: &str) -> String {
         ("invalid type: sequence", "invalid type: a list"),
         ("invalid type: map", "invalid type: a table"),
         ("expected a map", "expected a table"),
-        ("array of length", "list of length"),
     ];
     let told = words.iter().fold(message.to_owned(), |told, (from, to)| told.replace(from, to));
     match told.split_once("expected struct ") {
