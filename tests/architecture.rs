@@ -175,7 +175,8 @@ fn robots_and_skills_do_not_name_each_other() {
             })
             .collect()
     };
-    let (skills, robots) = (names("skills", "name"), names("robots", "name"));
+    let (mut skills, robots) = (names("skills", "name"), names("robots", "name"));
+    skills.extend(names("skills/tasks", "name"));
     assert!(!skills.is_empty() && !robots.is_empty());
     for (skill, skill_text) in &skills {
         for (robot, robot_text) in &robots {

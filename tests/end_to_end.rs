@@ -207,6 +207,97 @@ fn every_other_plugin_reaches_an_honest_outcome() {
 }
 
 #[test]
+fn a_task_looks_again_and_tells_its_steps_as_a_tree() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().display().to_string();
+    let words = ["run", "skills/tasks/dress.toml", "--json", "--seed", SEED, "--out", &out];
+    let call = seeone(words);
+    assert!(matches!(call.status, Some(0 | 1)), "{:?} {}", call.status, call.stderr);
+    let told: Value = serde_json::from_str(&call.stdout).expect("one JSON object");
+    assert_eq!(told["success"] == true, call.status == Some(0), "{told}");
+    assert_eq!(
+        (&told["task"], &told["tree"]["composition"]),
+        (&"dress".into(), &"sequence".into())
+    );
+    let wear = &told["tree"]["steps"][0];
+    assert_eq!(wear["name"], "wear");
+    assert!(wear["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{wear}");
+    let runs = wear["runs"].as_array().expect("runs");
+    assert_eq!(Some(runs.len() as u64), wear["tries"].as_u64());
+    // All but the last failed, and the last says how the step ended.
+    let failed = |run: &Value| !run["failed_at"].is_null();
+    let (last, before) = runs.split_last().expect("a run");
+    assert!(before.iter().all(failed), "{told}");
+    assert_eq!(failed(last), wear["state"] == "failed");
+    assert!(!failed(last) || runs.len() == 3, "{told}");
+    for (index, run) in runs.iter().enumerate() {
+        let first = if index == 0 { "require" } else { "withdraw" };
+        assert_eq!(run["stages"][0]["name"], first, "{run}");
+        read(Path::new(run["recording"].as_str().expect("a recording")))
+            .expect("a sound recording");
+    }
+    for line in ["dress", "wear"] {
+        assert!(
+            call.stderr.lines().filter(|told| told.contains(line)).count() >= 2,
+            "{}",
+            call.stderr
+        );
+    }
+}
+
+#[test]
+fn one_word_swaps_the_robot() {
+    for robot in ["ur5e-ag95-sim", "panda-ag95-sim"] {
+        let file = format!("robots/{robot}.toml");
+        let attempt = Attempt::new(&["--robot", &file]);
+        assert_eq!(attempt.outcome["robot"], robot);
+        // A verdict: whatever became of it, the world has judged it.
+        assert!(attempt.outcome["success"].is_boolean(), "{}", attempt.call.stdout);
+        assert!(
+            attempt
+                .stage("plan")
+                .is_some_and(|plan| plan["reason"].is_null() || plan["ok"] == false)
+        );
+    }
+}
+
+#[test]
+fn a_skill_and_a_robot_that_were_begun_are_sound_and_run() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let skill = ["new", "skill", "my-skill", "--folder", &path("skills")];
+    let urdf = path("arm.urdf");
+    fs::copy(root().join("robots/ur5e-ag95.urdf"), &urdf).expect("a URDF");
+    let robot = ["new", "robot", "my-arm", "--urdf", &urdf, "--folder", &path("robots")];
+    for words in [&skill[..], &robot[..]] {
+        let made = seeone(words);
+        assert_eq!(made.status, Some(0), "{}", made.stderr);
+        let again = seeone(words);
+        assert_eq!(again.status, Some(2), "{}", again.stderr);
+        assert!(again.stderr.contains("error[F004]"), "{}", again.stderr);
+    }
+    let (skill, robot) = (path("skills/my-skill.toml"), path("robots/my-arm.toml"));
+    let scene = "scenes/head.toml";
+    let checked = seeone(["check", &skill, &robot, "--robot", &robot, "--scene", scene]);
+    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
+    let dry = ["run", &skill, "--robot", &robot, "--dry-run", "--json", "--out", &path("out")];
+    let planned = seeone(dry);
+    assert_eq!(planned.status, Some(0), "{}", planned.stderr);
+    let told: Value = serde_json::from_str(&planned.stdout).expect("one JSON object");
+    assert_eq!((&told["skill"], &told["robot"]), (&"my-skill".into(), &"my-arm".into()));
+    let ours = fs::read_to_string(root().join("robots/ur5e-ag95-sim.toml")).expect("a file");
+    let theirs = fs::read_to_string(&robot).expect("a file");
+    let pairs = |text: &str| text.split_once("[collision]").map(|(_, pairs)| pairs.to_owned());
+    assert_eq!(pairs(&ours), pairs(&theirs), "sampled as the shipped file has them");
+    let none =
+        seeone(["new", "robot", "other", "--urdf", "README.md", "--folder", &path("robots")]);
+    assert_eq!(none.status, Some(2), "{}", none.stderr);
+    assert!(none.stderr.contains("error[R002]"), "{}", none.stderr);
+    let named = seeone(["new", "skill", "My Skill", "--folder", &path("skills")]);
+    assert!(named.stderr.contains("error[F005]"), "{}", named.stderr);
+}
+
+#[test]
 fn a_cap_made_by_others_is_imported_and_tried() {
     let mesh = root().join("../shared/objects/baseball_cap_danlyvostok.obj");
     let Ok(mesh) = mesh.canonicalize() else {
@@ -287,6 +378,13 @@ fn what_there_is_can_be_asked() {
         assert_eq!(shown.status, Some(0), "{}", shown.stderr);
         assert!(fs::read(picture).expect("a picture").starts_with(b"\x89PNG"));
     }
+    for kind in ["skill", "task", "scene", "robot"] {
+        let path = root().join(format!("docs/schemas/{kind}.json"));
+        let committed = fs::read_to_string(path).expect("a schema");
+        assert_eq!(seeone(["schema", kind]).stdout, committed, "{kind}");
+    }
+    let unknown = seeone(["schema", "skil"]);
+    assert_eq!(unknown.status, Some(2), "{}", unknown.stderr);
     for words in [["--help"], ["--version"]] {
         let call = seeone(words);
         assert_eq!((call.status, call.stderr.as_str()), (Some(0), ""));

@@ -13,6 +13,8 @@ mod scene;
 mod skill;
 #[path = "../support/mod.rs"]
 mod support;
+mod tables;
+mod task;
 
 use support::{Bench, Call};
 

@@ -53,6 +53,7 @@ impl Bench {
         for name in [
             "skills/cap-wearing.toml",
             "skills/cap-wearing/demonstration.ply",
+            "skills/tasks/dress.toml",
             "scenes/head.toml",
             "robots/ur5-ag95-sim.toml",
             "robots/ur5-ag95.urdf",

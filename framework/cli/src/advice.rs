@@ -13,7 +13,7 @@ pub fn complete(fault: Diagnostic) -> Diagnostic {
 fn general(code: &str) -> Option<&'static str> {
     let (family, number) = code.split_at_checked(1)?;
     match (family, number) {
-        ("S" | "C" | "B", number) => file(number),
+        ("S" | "T" | "C" | "B", number) => file(number),
         ("R", _) => Some("mend the URDF, or the robot file that names its links and joints"),
         ("P", _) => Some("give a PLY cloud such as `seeone teach` writes"),
         ("I", "001") => Some("name a JSON file of at most 64 MiB that is there and may be read"),
@@ -32,7 +32,9 @@ fn general(code: &str) -> Option<&'static str> {
         ("M", "005") => Some("choose another scene with --scene"),
         ("N", "003") => Some("name another place with --out"),
         ("N" | "W", _) => Some("make weights with `seeone train`"),
-        ("F", "001") => Some("skills, scenes, robots, objects, clouds and weights are checked"),
+        ("F", "001") => Some(
+            "skills, tasks, scenes, robots, objects, clouds, weights and libraries are checked",
+        ),
         _ => None,
     }
 }
@@ -47,6 +49,7 @@ fn file(number: &str) -> Option<&'static str> {
         "020" => "choose a value within the range",
         "021" => "rename it",
         "022" => "a pose is { xyz_m = [x, y, z], quat_xyzw = [x, y, z, w] }, of unit length",
+        "030" => "compare the table with what the plugin's source documents of it",
         "024" => "paths are relative to the folder of the file that names them",
         _ => return None,
     })

@@ -4,6 +4,7 @@ use clap::{
     ArgMatches, Args, Command, FromArgMatches, Parser, Subcommand, ValueEnum, value_parser,
 };
 use seeone_plugin::Kind;
+use seeone_runtime::files::Family;
 use seeone_runtime::methods::parse_override;
 use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 use std::path::PathBuf;
@@ -24,7 +25,7 @@ pub struct Cli {
 /// The verbs.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// Run a skill once: look, perceive, encode, transfer, plan, act, judge.
+    /// Run a skill once: look, perceive, encode, transfer, plan, act, judge. Or a task of skills.
     Run(RunArgs),
     /// Run a skill many times over seeds and objects and report rates with intervals.
     Eval(EvalArgs),
@@ -50,8 +51,20 @@ pub enum Verb {
     ///
     /// Exit status 0 once everything is answered, whatever the answers say.
     Ik(IkArgs),
-    /// Check skill, scene, robot, object, cloud and weights files.
+    /// Write files to begin with, which pass `check` as they are: a skill, a robot.
+    New {
+        /// What to begin.
+        #[command(subcommand)]
+        action: NewAction,
+    },
+    /// Check skill, task, scene, robot, object, cloud and weights files, and trusted libraries.
     Check(CheckArgs),
+    /// Print the JSON Schema of a kind of file, for editors.
+    Schema {
+        /// The kind of file: skill, task, scene or robot.
+        #[arg(value_parser = family)]
+        kind: Family,
+    },
     /// Plugins: list what is built in, trust a dynamic library.
     Plugins {
         /// What to do with them.
@@ -63,7 +76,7 @@ pub enum Verb {
 /// What a run or an evaluation is made of.
 #[derive(Clone, Debug, Args)]
 pub struct CellArgs {
-    /// The skill file.
+    /// The skill file; `run` takes a task file, too.
     pub skill: PathBuf,
     /// The robot file.
     #[arg(long, default_value = "robots/ur5-ag95-sim.toml")]
@@ -74,7 +87,8 @@ pub struct CellArgs {
     /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
-    /// How often the robot may look and reach for the object if its hand closes on nothing.
+    /// How often the robot may look and reach for the object if its hand closes on nothing; a
+    /// task says itself how often its steps are tried.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
     /// Load a trusted dynamic library and let it serve its kind; may be repeated.
@@ -400,12 +414,56 @@ pub struct IkArgs {
     pub seed: u64,
 }
 
+/// `new ...`.
+#[derive(Debug, Subcommand)]
+pub enum NewAction {
+    /// A skill, begun from the demonstration of another.
+    Skill(NewSkillArgs),
+    /// A robot file for an arm that a URDF describes.
+    Robot(NewRobotArgs),
+}
+
+/// `new skill`.
+#[derive(Clone, Debug, Args)]
+pub struct NewSkillArgs {
+    /// Its name: small letters, digits and hyphens.
+    pub name: String,
+    /// The folder to write into.
+    #[arg(long, value_name = "FOLDER", default_value = "skills")]
+    pub folder: PathBuf,
+    /// The skill that it is begun from.
+    #[arg(long, value_name = "FILE", default_value = "skills/cap-wearing.toml")]
+    pub from: PathBuf,
+}
+
+/// `new robot`.
+#[derive(Clone, Debug, Args)]
+pub struct NewRobotArgs {
+    /// Its name: small letters, digits and hyphens.
+    pub name: String,
+    /// The description of the arm with its gripper; copied into the folder unless it lies there.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: PathBuf,
+    /// The tool's link: z along the approach, y along the closing direction, between the pads.
+    #[arg(long, value_name = "LINK", default_value = "tcp")]
+    pub tool_link: String,
+    /// The folder to write into.
+    #[arg(long, value_name = "FOLDER", default_value = "robots")]
+    pub folder: PathBuf,
+}
+
 /// `check`.
 #[derive(Clone, Debug, Args)]
 pub struct CheckArgs {
     /// The files.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
+    /// Whether this robot reaches the poses of skills and tasks.
+    #[arg(long, value_name = "FILE")]
+    pub robot: Option<PathBuf>,
+    /// Whether this scene has the frames of skills and tasks.
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
     /// As a JSON array of faults.
     #[arg(long)]
     pub json: bool,
@@ -433,6 +491,12 @@ const FRAMES: NonZeroUsize = NonZeroUsize::new(4000).expect("not zero");
 const VIEWS: NonZeroUsize = NonZeroUsize::new(2).expect("not zero");
 /// Most views of a moment.
 const MOST_VIEWS: usize = 4;
+
+fn family(text: &str) -> Result<Family, String> {
+    let known = Family::ALL.map(Family::name);
+    let family = Family::ALL.into_iter().find(|family| family.name() == text);
+    family.ok_or_else(|| format!("known: {}", known.join(", ")))
+}
 
 fn frames(text: &str) -> Result<NonZeroUsize, String> {
     let frames: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;

@@ -6,6 +6,7 @@ mod builtin;
 mod console;
 mod faults;
 mod files;
+mod fits;
 mod follow;
 mod kept;
 mod motion_table;
@@ -15,13 +16,15 @@ mod picture;
 mod rate;
 mod shown;
 mod simulated;
+mod site;
+mod tables;
 mod targets;
 mod threads;
 mod verbs;
 mod workcell;
 
 use anyhow::Result;
-use args::{Cli, EvalArgs, EvalPart, ObjectsAction, PluginsAction, Verb};
+use args::{Cli, EvalArgs, EvalPart, NewAction, ObjectsAction, PluginsAction, Verb};
 use clap::Parser;
 use faults::Faults;
 use std::process::ExitCode;
@@ -76,7 +79,10 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Data(args) => verbs::data::run(args),
         Verb::Train(args) => verbs::train::run(args),
         Verb::Ik(args) => verbs::ik::run(args),
+        Verb::New { action: NewAction::Skill(args) } => verbs::new::skill::run(args),
+        Verb::New { action: NewAction::Robot(args) } => verbs::new::robot::run(args),
         Verb::Check(args) => verbs::check::run(args),
+        Verb::Schema { kind } => verbs::schema::run(*kind),
         Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
         Verb::Plugins { action: PluginsAction::Trust { library } } => {
             verbs::plugins::trust(library)

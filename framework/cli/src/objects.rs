@@ -21,16 +21,25 @@ pub fn resolve(name_or_file: &str) -> Result<Object> {
     if path.exists() || path.extension().is_some() {
         return Ok(read(path)?);
     }
+    Err(none(name_or_file).into())
+}
+
+/// The fault of a name that is neither an object's nor a set's.
+pub fn unknown(name: &str) -> Option<Diagnostic> {
+    let set = Set::ALL.into_iter().any(|set| set.name() == name);
+    (!set && cap::named(name).is_none()).then(|| none(name))
+}
+
+fn none(name: &str) -> Diagnostic {
     let names: Vec<String> = Set::DISJOINT.into_iter().flat_map(cap::names).collect();
-    let fault = Diagnostic::new("O001", format!("there is no object \"{name_or_file}\""));
-    let near = fault.clone().suggest(name_or_file, names.iter().map(String::as_str));
-    Err(match near.hint {
+    let fault = Diagnostic::new("O001", format!("there is no object \"{name}\""));
+    let near = fault.clone().suggest(name, names.iter().map(String::as_str));
+    match near.hint {
         Some(hint) if hint.starts_with("did you mean") => fault.hint(hint),
         _ => {
             fault.hint("see `seeone objects list`, or name a file made by `seeone objects import`")
         }
     }
-    .into())
 }
 
 /// The names of a set, or the one name or file that is none.

@@ -59,6 +59,23 @@ impl SimulatedCell {
         Ok(Self { cell: Arc::new(Mutex::new(cell)), head, worn: Arc::new(worn) })
     }
 
+    /// Puts what was dropped into `other` in the place of this cell's object: plugins that hold a
+    /// handle of this cell see it from then on, and the hand stays where it is.
+    ///
+    /// # Errors
+    /// When either simulated cell broke down.
+    pub fn exchange(&mut self, other: Self) -> Result<()> {
+        let broken = || anyhow!("the simulated cell broke down");
+        let mut here = self.cell.lock().map_err(|_| broken())?;
+        let mut there = other.cell.lock().map_err(|_| broken())?;
+        std::mem::swap(&mut *here, &mut *there);
+        if let Some(hand) = there.world().hand() {
+            here.place_hand(&hand.pose);
+        }
+        (self.head, self.worn) = (other.head, Arc::clone(&other.worn));
+        Ok(())
+    }
+
     /// The handle for plugins.
     pub fn handle(&self) -> WorldHandle {
         WorldHandle::new(Arc::clone(&self.cell))

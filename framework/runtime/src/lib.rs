@@ -1,4 +1,4 @@
-//! Files, plugins and runs of skills.
+//! Files, plugins, runs of skills, and tasks made of them.
 //!
 //! What a binary does with it:
 //! ```text
@@ -23,13 +23,15 @@ pub mod plugins;
 pub mod record;
 pub mod registry;
 pub mod run;
+pub mod task;
 pub mod transfer;
 
 #[cfg(test)]
 mod fakes;
 
-pub use files::{Family, KnownMethods, RobotFile, Scene, Skill, check};
+pub use files::{Family, KnownMethods, RobotFile, Scene, Skill, Task, check};
 pub use methods::{Methods, parse_override};
 pub use plugins::{Cell, Plugins, configuration};
 pub use registry::Registry;
 pub use run::{Assignment, Finished, Hooks, Outcome, StageEvent, run};
+pub use task::{TaskHooks, TaskOutcome, run_task};

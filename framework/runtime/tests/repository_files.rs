@@ -10,9 +10,9 @@ fn repository() -> PathBuf {
 }
 
 #[test]
-fn every_skill_scene_and_robot_passes_the_check() {
+fn every_skill_task_scene_and_robot_passes_the_check() {
     let mut checked = 0;
-    for folder in ["skills", "scenes", "robots"] {
+    for folder in ["skills", "skills/tasks", "scenes", "robots"] {
         for entry in fs::read_dir(repository().join(folder)).expect("the folder is there") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "toml") {
@@ -21,7 +21,7 @@ fn every_skill_scene_and_robot_passes_the_check() {
             }
         }
     }
-    assert!(checked >= 2, "{checked} files");
+    assert!(checked >= 4, "{checked} files");
 }
 
 #[test]

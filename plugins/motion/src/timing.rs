@@ -32,9 +32,17 @@ impl Timing<'_> {
         let mut samples = pieces[0].0[..1].to_vec();
         for (path, tool_speed) in pieces {
             let spline = Spline::through(path);
-            self.append(&mut samples, &|u: f64| spline.at(u), *tool_speed);
+            self.append(&mut samples, &|u: f64| self.allowed(spline.at(u)), *tool_speed);
         }
         JointTrajectory { period_s: self.config.period_s, positions: samples }
+    }
+
+    /// Between two postures at a joint's limit a curve goes a little beyond it; the arm may not.
+    fn allowed(&self, mut posture: Vec<f64>) -> Vec<f64> {
+        for (q, joint) in posture.iter_mut().zip(self.robot.joints()) {
+            *q = q.clamp(joint.lower(), joint.upper());
+        }
+        posture
     }
 
     /// Appends the samples of one piece, whose first posture is already there.
@@ -216,6 +224,23 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The elbow comes to its limit, stays there and leaves it again.
+    #[test]
+    fn a_line_along_a_joints_limit_does_not_go_beyond_it() {
+        let robot = ur5(&mut generator(3, "trajectories"));
+        let config = MotionConfig::default();
+        let timing = Timing { robot: &robot, config: &config };
+        let limit = robot.joints()[2].upper();
+        let elbow = |k: usize| limit - 0.02 * [4.0, 2.0, 0.0, 0.0, 0.0, 1.0, 4.0][k];
+        let path: Vec<Vec<f64>> =
+            (0..7).map(|k| vec![0.0, -1.5 + 0.01 * k as f64, elbow(k), 0.0, 0.0, 0.0]).collect();
+        let beyond = Spline::through(&path);
+        assert!((0..100).any(|k| beyond.at(f64::from(k) / 100.0)[2] > limit + 1e-4));
+        let line = timing.line(&[(&path, 0.25)]);
+        assert!(line.positions.iter().all(|q| robot.within_limits(q)));
+        assert_eq!(line.positions.last(), path.last());
     }
 
     #[test]

@@ -1,20 +1,24 @@
 //! `check`: the mistakes of files, told with their places, before anything moves.
 
 use crate::args::CheckArgs;
-use crate::{Ending, advice, builtin, console, files};
+use crate::faults::Faults;
+use crate::files::Against;
+use crate::fits::Reach;
+use crate::{Ending, advice, builtin, console};
 use anyhow::Result;
 use seeone_core::Diagnostic;
+use seeone_runtime::files::{RobotFile, Scene};
 use serde_json::json;
 
 /// Checks every file and tells every fault.
 ///
 /// # Errors
-/// When standard output has gone.
+/// Every fault of the robot or the scene that is checked against; when standard output has gone.
 pub fn run(args: &CheckArgs) -> Result<Ending> {
-    let known = builtin::registry().known();
+    let against = against(args)?;
     let mut faults: Vec<Diagnostic> = Vec::new();
     for file in &args.files {
-        let found = files::check(file, &known);
+        let found = against.check(file);
         if found.is_empty() && !args.json {
             console::tell(&format!("{}: no fault found", file.display()));
         }
@@ -27,6 +31,15 @@ pub fn run(args: &CheckArgs) -> Result<Ending> {
         faults.iter().for_each(|fault| console::tell(&format!("{fault}\n")));
     }
     Ok(if faults.is_empty() { Ending::Success } else { Ending::Failure })
+}
+
+fn against(args: &CheckArgs) -> Result<Against> {
+    let registry = builtin::registry();
+    let known = registry.known();
+    let scene = args.scene.as_ref().map(|path| Scene::read(path, &known).map_err(Faults));
+    let file = args.robot.as_ref().map(|path| RobotFile::read(path, &known).map_err(Faults));
+    let reach = file.transpose()?.map(|file| Reach::of(&file, &registry)).transpose()?;
+    Ok(Against { reach, scene: scene.transpose()?, registry })
 }
 
 fn row(fault: &Diagnostic) -> serde_json::Value {

@@ -3,9 +3,11 @@
 use crate::args::RunArgs;
 use crate::outputs::{make_folder, write_file};
 use crate::picture::RunPicture;
+use crate::verbs::task;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, motion_table, objects};
 use anyhow::Result;
+use seeone_runtime::files::{Family, family_of};
 use seeone_runtime::run::{Finished, Hooks, Outcome, Planned, StageEvent};
 use std::path::Path;
 use std::time::Instant;
@@ -15,6 +17,9 @@ use std::time::Instant;
 /// # Errors
 /// When something given is wrong, or a file cannot be written.
 pub fn run(args: &RunArgs) -> Result<Ending> {
+    if family_of(&args.cell.skill).is_ok_and(|family| family == Family::Task) {
+        return task::run(args);
+    }
     let clock = Instant::now();
     let workcell = Workcell::open(&args.cell)?;
     let object = match &args.object {

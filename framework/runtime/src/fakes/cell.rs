@@ -42,6 +42,10 @@ pub(crate) struct Behaviour {
     pub(crate) slips: bool,
     /// Whether nothing is in sight.
     pub(crate) blind: bool,
+    /// Whether the hand holds something from the first.
+    pub(crate) holds: bool,
+    /// Whether it ends badly although nothing failed.
+    pub(crate) spoils: bool,
 }
 
 pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginError> {
@@ -117,7 +121,7 @@ impl Judge for FakeJudge {
 
     fn judge(&mut self, _: Measure, grasped: bool) -> Result<Verdict, PluginError> {
         broken(&self.0, "judge")?;
-        let success = grasped && self.1.load(Ordering::Relaxed);
+        let success = grasped && self.1.load(Ordering::Relaxed) && !self.0.spoils;
         Ok(Verdict {
             grasped,
             success,
@@ -214,7 +218,7 @@ impl FakeCell {
                 behaviour,
                 time_s: 2.0,
                 opening_m: 0.03,
-                holding: false,
+                holding: behaviour.holds,
                 moved: moved.clone(),
             }),
             judge: Some(Box::new(FakeJudge(behaviour, moved))),

@@ -1,4 +1,4 @@
-//! The files a user writes: skills, scenes and robots.
+//! The files a user writes: skills, tasks, scenes and robots.
 //!
 //! Each is TOML of at most 1 MiB with `schema = 1`, in SI units with the unit in the key.
 //! It is parsed into a raw structure that refuses unknown keys, and resolved into a type
@@ -7,21 +7,32 @@
 
 mod check;
 mod codes;
+mod exactly;
+mod locate;
 mod obstacle;
+mod pose;
 mod resolver;
 mod robot_file;
 mod scene;
 mod scene_file;
+mod schema;
 mod skill;
 mod skill_file;
 mod skill_text;
 mod source;
+mod spanned;
+mod task;
+mod task_file;
 
 pub use check::{check, family_of};
 pub use codes::Family;
+pub use locate::locate;
+pub use resolver::is_name;
 pub use robot_file::RobotFile;
 pub use scene::{Drop, Head, Scene, Table};
+pub use schema::schema;
 pub use skill::{Demonstration, RelativeTo, Skill, Stage};
+pub use task::{SkillUse, Task, TaskStep, Work};
 
 use seeone_plugin::Kind;
 use std::collections::BTreeMap;

@@ -1,24 +1,34 @@
 //! What else stands in a scene, e.g. the stand of the camera or a hook on its wall.
 
 use super::codes::Fault;
+use super::exactly::Exactly;
+use super::pose::RawPose;
 use super::resolver::Resolver;
+use super::spanned::Spanned;
 use nalgebra::Vector3;
-use seeone_core::pose::PoseFields;
+use schemars::JsonSchema;
 use seeone_core::robot::{Shape, Solid};
 use serde::Deserialize;
-use toml::Spanned;
 
 /// The longest edge of an obstacle, metres.
 const LONGEST_M: f64 = 5.0;
 
 /// A box (`size_m`) or a cylinder along z (`radius_m`, `length_m`) about its pose in `world`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "obstacle")]
 pub(super) struct RawObstacle {
+    /// Its name in reasons.
     name: Spanned<String>,
-    pose: Spanned<PoseFields>,
-    size_m: Option<Spanned<[f64; 3]>>,
+    /// Its middle.
+    pose: Spanned<RawPose>,
+    /// Edges of a box, metres.
+    size_m: Option<Spanned<Exactly<f64, 3>>>,
+    /// Radius of a cylinder, metres.
+    #[schemars(range(min = 1e-3, max = LONGEST_M))]
     radius_m: Option<Spanned<f64>>,
+    /// Length of a cylinder, metres.
+    #[schemars(range(min = 1e-3, max = LONGEST_M))]
     length_m: Option<Spanned<f64>>,
 }
 

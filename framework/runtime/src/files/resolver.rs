@@ -2,16 +2,28 @@
 //! a user mends a file in one go.
 
 use super::codes::Fault;
+use super::exactly::Exactly;
+use super::pose::RawPose;
 use super::source::Source;
+use super::spanned::Spanned;
 use nalgebra::Vector3;
 use seeone_core::pose::PoseFields;
 use seeone_core::{Diagnostic, Pose};
 use std::ops::{Range, RangeInclusive};
 use std::path::{Component, Path, PathBuf};
-use toml::Spanned;
 
 /// The longest name.
 const LONGEST_NAME: usize = 64;
+/// The farthest coordinate of a pose, metres: no robot's room is larger.
+const FARTHEST_M: f64 = 10.0;
+
+/// Whether a skill, a robot or anything else that a file names may be called so: at most 64 small
+/// letters, digits and hyphens, a letter first.
+pub fn is_name(name: &str) -> bool {
+    name.len() <= LONGEST_NAME
+        && name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
+}
 
 /// Checks values of one file. A check that fails leaves its fault here and gives back a
 /// stand-in, which nobody sees: [`Resolver::finish`] then gives the faults instead.
@@ -71,28 +83,37 @@ impl<'a> Resolver<'a> {
     pub(super) fn numbers<const N: usize>(
         &mut self,
         key: &str,
-        value: &Spanned<[f64; N]>,
+        value: &Spanned<Exactly<f64, N>>,
         range: RangeInclusive<f64>,
     ) -> [f64; N] {
-        for number in value.get_ref() {
-            self.number(key, &Spanned::new(value.span(), *number), range.clone());
+        let Exactly(numbers) = value.get_ref();
+        // The first that lies outside says it for all.
+        if let Some(number) = numbers.iter().find(|number| !range.contains(number)) {
+            self.number(key, &Spanned::new(value.span(), *number), range);
         }
-        *value.get_ref()
+        *numbers
     }
 
     /// Three lengths or coordinates, each within a range.
     pub(super) fn vector(
         &mut self,
         key: &str,
-        value: &Spanned<[f64; 3]>,
+        value: &Spanned<Exactly<f64, 3>>,
         range: RangeInclusive<f64>,
     ) -> Vector3<f64> {
         self.numbers(key, value, range).into()
     }
 
-    /// A pose: finite, and its quaternion of unit length.
-    pub(super) fn pose(&mut self, key: &str, value: &Spanned<PoseFields>) -> Pose {
-        value.get_ref().resolve().unwrap_or_else(|cause| {
+    /// A pose: in the room, and its quaternion of unit length.
+    pub(super) fn pose(&mut self, key: &str, value: &Spanned<RawPose>) -> Pose {
+        let fields = PoseFields::from(value.get_ref());
+        if let Some(far) = fields.xyz_m.iter().find(|v| v.abs() > FARTHEST_M) {
+            let cause = format!(
+                "{key}: a coordinate of {far}, but it must lie in -{FARTHEST_M} to {FARTHEST_M}"
+            );
+            self.fault(Fault::Range, value.span(), cause);
+        }
+        fields.resolve().unwrap_or_else(|cause| {
             self.fault(Fault::Pose, value.span(), format!("{key}: {cause}"));
             Pose::identity()
         })
@@ -101,10 +122,7 @@ impl<'a> Resolver<'a> {
     /// A name: small letters, digits and hyphens, beginning with a letter.
     pub(super) fn name(&mut self, key: &str, value: &Spanned<String>) -> String {
         let name = value.get_ref();
-        let well = name.len() <= LONGEST_NAME
-            && name.starts_with(|c: char| c.is_ascii_lowercase())
-            && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
-        if !well {
+        if !is_name(name) {
             let cause = format!(
                 "{key} = {name:?}, but a name is made of at most {LONGEST_NAME} small letters, \
                  digits and hyphens and begins with a letter"

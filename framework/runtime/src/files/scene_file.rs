@@ -1,65 +1,102 @@
 //! Reading a scene.
 
 use super::codes::{Family, Fault};
+use super::exactly::Exactly;
 use super::obstacle::{RawObstacle, obstacle};
+use super::pose::{RawIntrinsics, RawPose};
 use super::resolver::Resolver;
 use super::source::Source;
+use super::spanned::Spanned;
 use super::{Drop, Head, KnownMethods, Scene, Table};
 use nalgebra::{Point2, Vector2};
+use schemars::JsonSchema;
 use seeone_core::head::SEMI_AXIS_M;
-use seeone_core::pose::PoseFields;
 use seeone_core::{Diagnostic, HeadSize, Intrinsics};
 use seeone_plugin::Kind;
 use serde::Deserialize;
+use std::ops::RangeInclusive;
 use std::path::Path;
-use toml::Spanned;
 
-#[derive(Deserialize)]
+/// A scene file: what stands where, and which object lies on the table.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct RawScene {
+#[schemars(rename = "scene")]
+pub(super) struct RawScene {
+    /// The version of the format.
     #[serde(rename = "schema")]
+    #[schemars(extend("const" = 1))]
     _schema: u32,
+    /// Its name: small letters, digits and hyphens.
     name: Spanned<String>,
+    /// The object that lies there: its name, or the name of a set to draw from.
     object: Spanned<String>,
+    /// The table.
     table: RawTable,
+    /// The head: z up, +y where the face looks.
     head: RawHead,
+    /// The depth camera.
     camera: RawCamera,
+    /// Where objects are dropped and looked for.
     drop: RawDrop,
+    /// What else the arm must not touch.
     #[serde(default)]
     obstacle: Vec<RawObstacle>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "table")]
 struct RawTable {
+    /// Top of the mat, metres; 0 when it is not said.
+    #[schemars(range(min = -FARTHEST_M, max = FARTHEST_M))]
     height_m: Option<Spanned<f64>>,
+    /// How far the robot may sink into the mat, metres; 0.03 when it is not said.
+    #[schemars(range(min = 0.0, max = 0.2))]
     soft_m: Option<Spanned<f64>>,
+    /// Coulomb friction of the mat.
+    #[schemars(range(min = 0.0, max = 2.0))]
     friction: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "head")]
 struct RawHead {
-    pose: Spanned<PoseFields>,
+    /// Its frame.
+    pose: Spanned<RawPose>,
+    /// How large it is: `small`, `medium` or `large`; or else `semi_axes_m`.
     size: Option<Spanned<String>>,
-    semi_axes_m: Option<Spanned<[f64; 3]>>,
+    /// Semi-axes of its ellipsoid, metres.
+    semi_axes_m: Option<Spanned<Exactly<f64, 3>>>,
+    /// Coulomb friction of its surface.
+    #[schemars(range(min = 0.0, max = 2.0))]
     friction: Spanned<f64>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "camera")]
 struct RawCamera {
+    /// The camera plugin; the first there is when it is not said.
     plugin: Option<Spanned<String>>,
+    /// A recorded PLY cloud below the scene's folder, for a plugin that shows one.
     cloud: Option<Spanned<String>>,
-    pose: Spanned<PoseFields>,
-    intrinsics: Spanned<Intrinsics>,
+    /// Its frame: x right, y down, z forward.
+    pose: Spanned<RawPose>,
+    /// Its intrinsics.
+    intrinsics: Spanned<RawIntrinsics>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "drop")]
 struct RawDrop {
-    centre_xy_m: Spanned<[f64; 2]>,
-    half_extents_m: Spanned<[f64; 2]>,
+    /// Middle of the zone, metres.
+    centre_xy_m: Spanned<Exactly<f64, 2>>,
+    /// Half the sides of the box in which the object is looked for, metres.
+    half_extents_m: Spanned<Exactly<f64, 2>>,
+    /// Height of that box above the table, metres.
+    #[schemars(range(min = 0.01, max = FARTHEST_M))]
     crop_height_m: Spanned<f64>,
 }
 
@@ -67,6 +104,8 @@ struct RawDrop {
 const SOFT_M: f64 = 0.03;
 /// The farthest coordinate of a table or a drop zone, metres.
 const FARTHEST_M: f64 = 5.0;
+/// The focal lengths of a camera, pixels.
+const FOCAL_PIXELS: RangeInclusive<f64> = 1.0..=1e5;
 /// The most pixels of an image.
 const MOST_PIXELS: usize = 4 << 20;
 
@@ -158,15 +197,24 @@ fn camera_plugin(
     Some(name.clone())
 }
 
-fn intrinsics(resolver: &mut Resolver, raw: &Spanned<Intrinsics>) -> Intrinsics {
-    let lens = *raw.get_ref();
+fn intrinsics(resolver: &mut Resolver, raw: &Spanned<RawIntrinsics>) -> Intrinsics {
+    let lens = Intrinsics::from(*raw.get_ref());
     let pixels = lens.width.saturating_mul(lens.height);
     if pixels == 0 || pixels > MOST_PIXELS {
         let cause = format!("an image of {} x {} pixels", lens.width, lens.height);
         resolver.fault(Fault::Range, raw.span(), cause);
     }
-    if lens.fx <= 0.0 || lens.fy <= 0.0 {
-        resolver.fault(Fault::Range, raw.span(), "the focal lengths fx and fy must be positive");
+    if ![lens.fx, lens.fy].iter().all(|f| FOCAL_PIXELS.contains(f)) {
+        let (low, high) = FOCAL_PIXELS.into_inner();
+        let cause = format!("the focal lengths fx and fy must lie in {low} to {high}");
+        resolver.fault(Fault::Range, raw.span(), cause);
+    }
+    if ![lens.cx, lens.cy].iter().all(|c| c.abs() <= *FOCAL_PIXELS.end()) {
+        resolver.fault(
+            Fault::Range,
+            raw.span(),
+            "the principal point cx, cy lies far off the image",
+        );
     }
     lens
 }

@@ -1,71 +1,116 @@
 //! Reading a skill.
 
 use super::codes::{Family, Fault};
+use super::exactly::Exactly;
+use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
+use super::spanned::Spanned;
 use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
 use nalgebra::Point3;
+use schemars::JsonSchema;
 use seeone_core::Diagnostic;
-use seeone_core::pose::PoseFields;
 use seeone_plugin::{GripperCommand, Kind, Measure};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::Path;
-use toml::Spanned;
 
-#[derive(Deserialize)]
+/// A skill file: one demonstration of one manipulation.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct RawSkill {
+#[schemars(rename = "skill")]
+pub(super) struct RawSkill {
+    /// The version of the format.
     #[serde(rename = "schema")]
+    #[schemars(extend("const" = 1))]
     _schema: u32,
+    /// Its name: small letters, digits and hyphens.
     name: Spanned<String>,
+    /// The category of objects it is for.
     category: Spanned<String>,
+    /// What it does, in a sentence.
     #[serde(default)]
     summary: String,
+    /// What was seen when the skill was shown.
     demonstration: RawDemonstration,
+    /// The key poses, in order; the first is relative to the object.
     #[serde(default)]
     stage: Vec<Spanned<RawStage>>,
+    /// Plugins by kind, where the skill asks for one.
     #[serde(default)]
     methods: BTreeMap<Spanned<String>, Spanned<String>>,
+    /// What counts as success.
     success: RawSuccess,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "demonstration")]
 struct RawDemonstration {
+    /// A PLY file below the skill's folder: the object's points in `world`, metres, before the
+    /// first stage.
     cloud: Spanned<String>,
-    camera_xyz_m: Spanned<[f64; 3]>,
+    /// Where the camera stood in `world`, metres.
+    camera_xyz_m: Spanned<Exactly<f64, 3>>,
+    /// Poses in `world` of the frames that stages are relative to, by name.
     #[serde(default)]
-    frames: BTreeMap<Spanned<String>, Spanned<PoseFields>>,
+    frames: BTreeMap<Spanned<String>, Spanned<RawPose>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "stage")]
 struct RawStage {
+    /// Its name, unique in the skill.
     name: Spanned<String>,
+    /// What the pose moves with: `object`, or a frame of the demonstration.
     relative_to: Spanned<String>,
-    gripper_pose: Spanned<PoseFields>,
+    /// The demonstrated tool frame in `world`.
+    gripper_pose: Spanned<RawPose>,
+    /// Straight approach along the tool's z, metres; 0 when it is not said.
+    #[schemars(range(min = 0.0, max = LONGEST_LINE_M))]
     approach_m: Option<Spanned<f64>>,
+    /// Opening of the fingers while approaching, metres; 0.03 when it is not said.
+    #[schemars(range(min = 0.0, max = WIDEST_M))]
     opening_m: Option<Spanned<f64>>,
+    /// The line to the pose ends where the load at the wrist has changed by this, newtons.
+    #[schemars(range(min = *CONTACT_N.start(), max = *CONTACT_N.end()))]
     until_contact_n: Option<Spanned<f64>>,
+    /// What the gripper does at the pose.
     gripper: Option<Spanned<RawGripper>>,
+    /// Straight retreat against the tool's z, metres; 0 when it is not said.
+    #[schemars(range(min = 0.0, max = LONGEST_LINE_M))]
     retreat_m: Option<Spanned<f64>>,
+    /// Straight lift along the world's z, metres; 0 when it is not said.
+    #[schemars(range(min = 0.0, max = LONGEST_LINE_M))]
     lift_m: Option<Spanned<f64>>,
+    /// By how much the grasp may be turned about the closing axis, degrees either way; 90 when it
+    /// is not said.
+    #[schemars(range(min = 0.0, max = 180.0))]
     turn_about_closing_deg: Option<Spanned<f64>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "gripper_command")]
 struct RawGripper {
+    /// Close with this force, newtons.
+    #[schemars(range(min = 0.0, max = STRONGEST_N))]
     close_n: Option<Spanned<f64>>,
+    /// Open to this distance between the pads, metres.
+    #[schemars(range(min = 0.0, max = WIDEST_M))]
     open_m: Option<Spanned<f64>>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "success")]
 struct RawSuccess {
+    /// What is measured: `worn`.
     measure: Spanned<String>,
+    /// The largest error, as a share of the object's diameter.
+    #[schemars(range(min = 1e-3, max = 1.0))]
     tolerance_d: Spanned<f64>,
 }
 
@@ -216,7 +261,8 @@ fn command(resolver: &mut Resolver, raw: &Spanned<RawGripper>) -> Option<Gripper
     }
 }
 
-fn methods(
+/// Plugins by kind: all kinds but those of the cell, each plugin one that there is.
+pub(super) fn methods(
     resolver: &mut Resolver,
     raw: &BTreeMap<Spanned<String>, Spanned<String>>,
     known: &KnownMethods,

@@ -6,7 +6,6 @@ use serde::de::DeserializeOwned;
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 use toml::de::{DeTable, DeValue, Error};
 
 /// The largest file that is read: a larger one costs seconds to parse.
@@ -80,7 +79,7 @@ impl Source {
         self.fault(Fault::Syntax, error.span().unwrap_or(0..0), error.message().trim())
     }
 
-    fn finite(&self, value: &Spanned<DeValue>, faults: &mut Vec<Diagnostic>) {
+    fn finite(&self, value: &toml::Spanned<DeValue>, faults: &mut Vec<Diagnostic>) {
         match value.get_ref() {
             DeValue::Float(number) if !number.as_str().parse::<f64>().is_ok_and(f64::is_finite) => {
                 let cause = format!("{} is not a finite number", number.as_str());
@@ -124,6 +123,24 @@ impl Source {
                 format!("the key \"{}\" is missing", quoted[0]),
             );
         }
-        self.fault(Fault::WrongType, at, message)
+        self.fault(Fault::WrongType, at, in_words_of_the_file(message))
+    }
+}
+
+/// A fault of type, where serde speaks of Rust's types.
+fn in_words_of_the_file(message: &str) -> String {
+    let words = [
+        ("expected f64", "expected a number"),
+        ("expected u32", "expected a whole number from 0"),
+        ("expected usize", "expected a whole number from 0"),
+        ("expected a sequence", "expected a list"),
+        ("invalid type: sequence", "invalid type: a list"),
+        ("invalid type: map", "invalid type: a table"),
+        ("expected a map", "expected a table"),
+    ];
+    let told = words.iter().fold(message.to_owned(), |told, (from, to)| told.replace(from, to));
+    match told.split_once("expected struct ") {
+        Some((before, _)) => format!("{before}expected a table"),
+        None => told,
     }
 }

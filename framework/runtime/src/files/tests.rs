@@ -156,7 +156,7 @@ fn faults_of_a_skill_are_told_with_place_and_hint() {
         (
             "lift_m = 0.25",
             "lift_m = \"high\"",
-            "error[S013]: a.toml:16:10: invalid type: string \"high\", expected f64",
+            "error[S013]: a.toml:16:10: invalid type: string \"high\", expected a number",
         ),
         (
             "lift_m = 0.25",
@@ -342,4 +342,30 @@ fn a_changed_character_is_told_or_harmless() {
         }
     }
     assert!((30..900).contains(&accepted), "{accepted} of 1000 accepted");
+}
+
+#[test]
+fn a_task_is_read_with_the_skills_it_names() {
+    let folder = folder();
+    fs::write(folder.path().join("wear.toml"), SKILL).unwrap();
+    fs::create_dir(folder.path().join("tasks")).unwrap();
+    let text = "schema = 1\nname = \"dress\"\n[[step]]\nname = \"any-way\"\ntries = 2\n\
+                [[step.fallback]]\nname = \"one\"\nskill = \"wear\"\nrequire = [\"hand-empty\"]\n\
+                for_each_object = [\"a\", \"b\"]\ntargets = { head = \"stand\" }\n\
+                [[step.fallback]]\nname = \"other\"\nskill = \"wear\"\n\
+                methods = { perception = \"nst\", transfer = \"snap\" }\n";
+    let path = folder.path().join("tasks/a.toml");
+    fs::write(&path, text).unwrap();
+    assert_eq!(check(&path, &known()), []);
+    let task = Task::read(&path, &known()).unwrap();
+    assert_eq!((task.steps.len(), task.steps[0].tries), (1, 2));
+    let Work::Fallback(ways) = &task.steps[0].work else { panic!("{task:?}") };
+    assert_eq!(ways[0].objects, ["a", "b"]);
+    assert_eq!(task.objects(), ["a", "b"]);
+    let [one, other] = task.uses()[..] else { panic!("{task:?}") };
+    assert_eq!(one.requires, [crate::run::Precondition::HandEmpty]);
+    assert_eq!(one.targets["head"], "stand");
+    assert_eq!(one.path, folder.path().join("wear.toml"));
+    assert_eq!(one.skill.methods.get(&Kind::Transfer), None);
+    assert_eq!(other.skill.methods[&Kind::Transfer], "snap");
 }

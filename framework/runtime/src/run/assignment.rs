@@ -51,6 +51,21 @@ impl Assignment {
         robot: RobotModel,
         methods: Methods,
     ) -> Result<Self, Diagnostic> {
+        Self::bound(skill, scene, robot, methods, &BTreeMap::new())
+    }
+
+    /// The same with targets: for a frame of the skill that is in `targets`, the scene's frame
+    /// that it stands for; any other stands for the scene's frame of its own name.
+    ///
+    /// # Errors
+    /// As [`Assignment::new`].
+    pub fn bound(
+        skill: Skill,
+        scene: Scene,
+        robot: RobotModel,
+        methods: Methods,
+        targets: &BTreeMap<String, String>,
+    ) -> Result<Self, Diagnostic> {
         if skill.stages.is_empty() {
             return Err(Diagnostic::new("M005", format!("skill {:?} has no stage", skill.name)));
         }
@@ -58,10 +73,11 @@ impl Assignment {
         let mut frames = BTreeMap::new();
         for stage in &skill.stages {
             if let RelativeTo::Frame(name) = &stage.relative_to {
-                let pose = scene.frame(name).ok_or_else(|| {
+                let target = targets.get(name).unwrap_or(name);
+                let pose = scene.frame(target).ok_or_else(|| {
                     let (skill, scene) = (&skill.name, &scene.name);
                     let cause = format!(
-                        "skill {skill:?} needs the frame {name:?}, which scene {scene:?} has not"
+                        "skill {skill:?} needs the frame {target:?}, which scene {scene:?} has not"
                     );
                     Diagnostic::new("M005", cause)
                 })?;

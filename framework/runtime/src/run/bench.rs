@@ -22,16 +22,27 @@ impl Default for Hooks {
 
 /// The plugins with what is to be reported of their work. The one resource of the ECS
 /// world that is not plain data.
-pub(super) struct Bench {
-    pub(super) plugins: Plugins,
+pub(crate) struct Bench {
+    pub(crate) plugins: Plugins,
     hooks: Hooks,
     pub(super) events: Vec<StageEvent>,
     pub(super) timings_ms: Vec<(Step, f64)>,
 }
 
 impl Bench {
-    pub(super) fn new(plugins: Plugins, hooks: Hooks) -> Self {
+    pub(crate) fn new(plugins: Plugins, hooks: Hooks) -> Self {
         Self { plugins, hooks, events: Vec::new(), timings_ms: Vec::new() }
+    }
+
+    /// Seconds of the clock that was handed in.
+    pub(crate) fn now(&mut self) -> f64 {
+        (self.hooks.clock)()
+    }
+
+    /// Forgets what it told of the run before.
+    pub(super) fn begin(&mut self) {
+        self.events.clear();
+        self.timings_ms.clear();
     }
 
     /// Does the work of a step, timed and told. A panic of a plugin is a failure of the

@@ -1,5 +1,6 @@
 //! A field of features on the canonical cube for both objects.
 
+use super::assignment::Assignment;
 use super::bench::Bench;
 use super::perceive::Perceived;
 use super::schedule::leave;
@@ -19,9 +20,9 @@ pub struct Encoded {
 pub(super) fn encode(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Perceived), Without<Failed>>,
+    runs: Query<(Entity, &Assignment, &Perceived), Without<Failed>>,
 ) {
-    for (run, perceived) in &runs {
+    for (run, _, perceived) in &runs {
         let encoded = bench.step(Step::Encode, |plugins| {
             let mut encode = |cloud| plugins.encoding.encode(cloud).map_err(|e| e.to_string());
             Ok(Encoded {

@@ -2,6 +2,8 @@
 //!
 //! | step | takes | leaves |
 //! |---|---|---|
+//! | withdraw | a run that follows a failed one | the hand empty, back where it waits |
+//! | require | what must be true before | nothing |
 //! | observe | scene, camera | [`Seen`] |
 //! | perceive | both clouds | [`Perceived`] |
 //! | encode | both canonical clouds | [`Encoded`] |
@@ -13,7 +15,8 @@
 //!
 //! A step that cannot do its work leaves [`Failed`], and the steps after it are passed over;
 //! judging and recording are not, so that every run ends with a verdict and a whole file.
-//! Observe to act are one schedule, made again when the hand closed on nothing; judge and record
+//! The first two are for runs of a [`task`](crate::task) alone.
+//! Withdraw to act are one schedule, made again when the hand closed on nothing; judge and record
 //! are another. Both are single-threaded and chained; no step reads a clock but the one that is
 //! handed in, and nothing of that goes into a recording.
 
@@ -28,9 +31,11 @@ mod outcome;
 mod perceive;
 mod plan;
 mod record;
+mod require;
 mod schedule;
 mod step;
 mod transfer;
+mod withdraw;
 
 pub use act::{Acted, Snapshot};
 pub use assignment::Assignment;
@@ -42,9 +47,14 @@ pub use observe::Seen;
 pub use outcome::Outcome;
 pub use perceive::Perceived;
 pub use plan::Planned;
+pub use require::{Precondition, Requires};
 pub use schedule::{Finished, run};
 pub use step::{Failed, StageEvent, Step};
 pub use transfer::{Grasp, Transferred};
+pub use withdraw::Withdraw;
+
+pub(crate) use bench::Bench;
+pub(crate) use schedule::carry_out;
 
 #[cfg(test)]
 mod tests;

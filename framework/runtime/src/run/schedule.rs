@@ -8,12 +8,12 @@ use super::outcome::Outcome;
 use super::record::Recorded;
 use super::step::{Failed, Step};
 use super::{Acted, Encoded, Perceived, Planned, Seen, Transferred};
-use super::{act, encode, judge, observe, perceive, plan, record, transfer};
+use super::{act, encode, judge, observe, perceive, plan, record, require, transfer, withdraw};
 use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 
-/// From a look to what the robot did; once for every try.
+/// From what must be true before to what the robot did; once for every try.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Attempt;
 
@@ -44,22 +44,32 @@ pub fn run(assignment: Assignment, plugins: Plugins, hooks: Hooks) -> Finished {
     let mut world = World::new();
     world.insert_non_send(Bench::new(plugins, hooks));
     let run = world.spawn(assignment).id();
-    let mut attempt = attempt();
-    attempt.run(&mut world);
-    while again(&mut world, run) {
-        attempt.run(&mut world);
-    }
-    conclude().run(&mut world);
+    let outcome = carry_out(&mut world, run);
     let bench: Bench = world.remove_non_send().expect("the bench was put there above");
-    let outcome = Outcome::new(
-        world.get::<Assignment>(run).expect("no step takes the assignment away"),
-        &bench,
+    Finished { outcome, plugins: bench.plugins, world, run }
+}
+
+/// Carries out the run of the entity `run` in a world with a bench, and tells of it. A run is
+/// under way as long as it has its assignment: what its steps left stays, but no step sees it
+/// again.
+pub(crate) fn carry_out(world: &mut World, run: Entity) -> Outcome {
+    world.non_send_mut::<Bench>().begin();
+    let mut attempt = attempt();
+    attempt.run(world);
+    while again(world, run) {
+        attempt.run(world);
+    }
+    conclude().run(world);
+    let assignment =
+        world.entity_mut(run).take::<Assignment>().expect("no step takes the assignment away");
+    Outcome::new(
+        &assignment,
+        world.non_send::<Bench>(),
         world.get::<Judged>(run).map(|judged| &judged.0),
         world.get::<Acted>(run).map_or(0, |acted| acted.tries),
         world.get::<Failed>(run),
         world.get::<Recorded>(run),
-    );
-    Finished { outcome, plugins: bench.plugins, world, run }
+    )
 }
 
 /// Whether the hand missed and there is another try; what the last one found is then gone,
@@ -78,10 +88,21 @@ pub(super) fn attempt() -> Schedule {
     let mut schedule = Schedule::new(Attempt);
     schedule.set_executor(SingleThreadedExecutor::new());
     schedule.configure_sets(
-        (Step::Observe, Step::Perceive, Step::Encode, Step::Transfer, Step::Plan, Step::Act)
+        (
+            Step::Withdraw,
+            Step::Require,
+            Step::Observe,
+            Step::Perceive,
+            Step::Encode,
+            Step::Transfer,
+            Step::Plan,
+            Step::Act,
+        )
             .chain(),
     );
     schedule.add_systems((
+        withdraw::withdraw.in_set(Step::Withdraw),
+        require::require.in_set(Step::Require),
         observe::observe.in_set(Step::Observe),
         perceive::perceive.in_set(Step::Perceive),
         encode::encode.in_set(Step::Encode),

@@ -7,6 +7,10 @@ use serde::{Deserialize, Serialize};
 /// A step of a run, in order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
+    /// Let go and go back to where the robot waits, after a run that failed.
+    Withdraw,
+    /// Ask whether what must be true before is true.
+    Require,
     /// Look.
     Observe,
     /// Find the canonical coordinates of what was seen.
@@ -41,6 +45,8 @@ impl Step {
     /// The name used in reports.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Withdraw => "withdraw",
+            Self::Require => "require",
             Self::Observe => "observe",
             Self::Perceive => "perceive",
             Self::Encode => "encode",
