@@ -274,7 +274,7 @@ fn a_skill_and_a_robot_that_were_begun_are_sound_and_run() {
         assert_eq!(made.status, Some(0), "{}", made.stderr);
         let again = seeone(words);
         assert_eq!(again.status, Some(2), "{}", again.stderr);
-        assert!(again.stderr.contains("error[F004]"), "{}", again.stderr);
+        assert!(again.stderr.contains("error[G002]"), "{}", again.stderr);
     }
     let (skill, robot) = (path("skills/my-skill.toml"), path("robots/my-arm.toml"));
     let scene = "scenes/head.toml";
@@ -294,7 +294,7 @@ fn a_skill_and_a_robot_that_were_begun_are_sound_and_run() {
     assert_eq!(none.status, Some(2), "{}", none.stderr);
     assert!(none.stderr.contains("error[R002]"), "{}", none.stderr);
     let named = seeone(["new", "skill", "My Skill", "--folder", &path("skills")]);
-    assert!(named.stderr.contains("error[F005]"), "{}", named.stderr);
+    assert!(named.stderr.contains("error[G001]"), "{}", named.stderr);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `new`: files to begin with, which pass `check` as they are.
+//! `new`: the beginnings of what a user makes.
 
 pub mod robot;
 pub mod skill;
@@ -7,20 +7,29 @@ use seeone_core::Diagnostic;
 use seeone_runtime::files::is_name;
 use std::path::Path;
 
-/// Refuses a name that no file may have, and to write over what is there.
+/// Refuses a name that files and the command line cannot both carry.
 ///
 /// # Errors
-/// `F005` for a name, `F004` for what is there already.
-fn vacant(name: &str, paths: &[&Path]) -> Result<(), Diagnostic> {
-    if !is_name(name) {
-        let cause = format!("{name:?} is no name");
-        return Err(Diagnostic::new("F005", cause)
-            .hint("small letters, digits and hyphens, a letter first: my-skill"));
+/// `G001`.
+pub fn check_name(name: &str) -> Result<(), Diagnostic> {
+    if is_name(name) {
+        return Ok(());
     }
+    let cause = format!("{name:?} is no name: lower-case letters, digits and hyphens");
+    Err(Diagnostic::new("G001", cause).hint("for example: my-skill"))
+}
+
+/// Refuses to write over what is there.
+///
+/// # Errors
+/// `G002` for the first of `paths` at which something is.
+pub fn check_vacant(paths: &[&Path]) -> Result<(), Diagnostic> {
     match paths.iter().find(|path| path.exists()) {
-        Some(there) => Err(Diagnostic::new("F004", "is there already")
-            .in_file(there)
-            .hint("choose another name, or another folder with --folder")),
+        Some(there) => {
+            let cause = "something is there already; nothing was changed";
+            let fault = Diagnostic::new("G002", cause).in_file(there);
+            Err(fault.hint("choose another name, or another folder with --folder"))
+        }
         None => Ok(()),
     }
 }

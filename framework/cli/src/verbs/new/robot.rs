@@ -1,6 +1,6 @@
 //! `new robot`: a robot file for an arm that a URDF describes.
 
-use super::vacant;
+use super::{check_name, check_vacant};
 use crate::args::NewRobotArgs;
 use crate::outputs::{make_folder, write_file};
 use crate::{Ending, builtin, console};
@@ -36,7 +36,8 @@ const SEED: u64 = 1;
 /// or cannot be written, an arm that cannot wait with its hand down anywhere.
 pub fn run(args: &NewRobotArgs) -> Result<Ending> {
     let path = args.folder.join(format!("{}.toml", args.name));
-    vacant(&args.name, &[&path])?;
+    check_name(&args.name)?;
+    check_vacant(&[&path])?;
     let options = RobotOptions { tool_link: args.tool_link.clone(), ..RobotOptions::default() };
     let robot = RobotModel::from_urdf(&args.urdf, &options)?;
     let registry = builtin::registry();
@@ -64,7 +65,7 @@ fn beside(args: &NewRobotArgs) -> Result<String, Diagnostic> {
     }
     let name = format!("{}.urdf", args.name);
     let to = args.folder.join(&name);
-    vacant(&args.name, &[&to])?;
+    check_vacant(&[&to])?;
     write_file(&to, &fs::read(&args.urdf).map_err(fault)?)?;
     console::tell(&format!("wrote {}", to.display()));
     Ok(name)

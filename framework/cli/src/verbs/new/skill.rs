@@ -1,6 +1,6 @@
 //! `new skill`: a skill to begin with, from the demonstration of another.
 
-use super::vacant;
+use super::{check_name, check_vacant};
 use crate::args::NewSkillArgs;
 use crate::faults::Faults;
 use crate::outputs::{make_folder, write_file};
@@ -18,7 +18,8 @@ pub fn run(args: &NewSkillArgs) -> Result<Ending> {
     let mut skill = Skill::read(&args.from, &builtin::registry().known()).map_err(Faults)?;
     let path = args.folder.join(format!("{}.toml", args.name));
     let own = args.folder.join(&args.name);
-    vacant(&args.name, &[&path, &own])?;
+    check_name(&args.name)?;
+    check_vacant(&[&path, &own])?;
     let shown = skill.demonstration.cloud.clone();
     let cloud =
         fs::read(&shown).with_context(|| format!("cannot read the cloud {}", shown.display()))?;
