@@ -7,6 +7,7 @@ use seeone_plugin::Kind;
 use seeone_runtime::methods::parse_override;
 use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// See one, do many: a robot watches one manipulation of one deformable object and does
 /// it on every other object of that category.
@@ -52,7 +53,7 @@ pub enum Verb {
     Ik(IkArgs),
     /// Check skill, scene, robot, object, cloud and weights files.
     Check(CheckArgs),
-    /// Plugins: list what is built in, trust a dynamic library.
+    /// Plugins: list what there is, check or trust a dynamic library.
     Plugins {
         /// What to do with them.
         #[command(subcommand)]
@@ -77,9 +78,18 @@ pub struct CellArgs {
     /// How often the robot may look and reach for the object if its hand closes on nothing.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
-    /// Load a trusted dynamic library and let it serve its kind; may be repeated.
+    /// Load a trusted dynamic library and let its plugins serve their kinds; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,
+    /// Leave a loaded plugin alone that has given no sign of life for so many seconds.
+    #[arg(
+        long = "plugin-patience",
+        value_name = "SECONDS",
+        default_value = "60",
+        allow_negative_numbers = true,
+        value_parser = patience
+    )]
+    pub patience: Duration,
 }
 
 /// `run`.
@@ -410,11 +420,27 @@ pub struct CheckArgs {
 /// `plugins ...`.
 #[derive(Debug, Subcommand)]
 pub enum PluginsAction {
-    /// What is built in, by kind.
+    /// What is built in, by kind; and which libraries of a folder are trusted, or why not.
     List {
+        /// Folders to look for libraries in.
+        folders: Vec<PathBuf>,
         /// As a JSON array.
         #[arg(long)]
         json: bool,
+    },
+    /// Try a dynamic library, trusted or not: what it offers, or why it cannot be served.
+    ///
+    /// It is loaded by another process, so that a library that ends its process is told like
+    /// any other fault.
+    Check {
+        /// The library.
+        library: PathBuf,
+    },
+    /// Loads a library unchecked, for `check` alone.
+    #[command(hide = true)]
+    Probe {
+        /// The library.
+        library: PathBuf,
     },
     /// Write the manifest of a dynamic library: from then on this very file is loaded.
     Trust {
@@ -439,6 +465,12 @@ fn views(text: &str) -> Result<NonZeroUsize, String> {
     let views: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;
     let some = NonZeroUsize::new(views).filter(|_| views <= MOST_VIEWS);
     some.ok_or_else(|| format!("not from 1 to {MOST_VIEWS}"))
+}
+
+fn patience(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|e: ParseFloatError| e.to_string())?;
+    let some = (seconds > 0.0 && seconds <= 86_400.0).then(|| Duration::from_secs_f64(seconds));
+    some.ok_or_else(|| "not above 0 and up to 86400".into())
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -76,7 +76,15 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Train(args) => verbs::train::run(args),
         Verb::Ik(args) => verbs::ik::run(args),
         Verb::Check(args) => verbs::check::run(args),
-        Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
+        Verb::Plugins { action: PluginsAction::List { folders, json } } => {
+            verbs::plugins::list(folders, *json)
+        }
+        Verb::Plugins { action: PluginsAction::Check { library } } => {
+            verbs::plugins::check(library)
+        }
+        Verb::Plugins { action: PluginsAction::Probe { library } } => {
+            verbs::plugins::probe(library)
+        }
         Verb::Plugins { action: PluginsAction::Trust { library } } => {
             verbs::plugins::trust(library)
         }

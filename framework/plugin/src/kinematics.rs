@@ -62,6 +62,28 @@ pub struct IkOutcome {
     pub reason: Option<String>,
 }
 
+impl IkOutcome {
+    /// Says what no kinematics may answer for `robot`.
+    ///
+    /// # Errors
+    /// A sentence about joints that are not the robot's or not within its limits, errors that
+    /// are no lengths, or a failure without a reason.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), String> {
+        if !robot.within_limits(&self.joints) {
+            let limits = "one position within the limits for each joint";
+            return Err(format!("{:?} is not {limits}", self.joints));
+        }
+        let errors = [self.position_error_m, self.rotation_error_rad];
+        if !errors.iter().all(|e| e.is_finite() && *e >= 0.0) {
+            return Err(format!("the remaining errors are {errors:?}"));
+        }
+        if self.status == IkStatus::Infeasible && self.reason.is_none() {
+            return Err("it found no solution and gives no reason".into());
+        }
+        Ok(())
+    }
+}
+
 /// Tool pose -> joint positions.
 pub trait Kinematics: Send + Sync {
     /// Solves one problem.

@@ -1,0 +1,243 @@
+//! The thread on which one loaded plugin lives.
+//!
+//! A call that does not return cannot be ended from outside. So a loaded plugin is called on a
+//! thread of its own, for which the host waits no longer than its patience; then the plugin and
+//! its thread are left alone for good. Nothing that crosses to the thread is borrowed: requests
+//! are moved, and what is lent is called through a channel, on the host's own thread, which is
+//! closed when the host has gone on.
+
+use super::callee::{Callee, NO_SERVICE, ask, missing, service};
+use super::message::with_message;
+use super::methods::Method;
+use super::table::{Span, Table};
+use crate::{Kind, PluginError};
+use std::ffi::c_void;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// As much stack as a program's first thread has.
+const STACK_BYTES: usize = 8 << 20;
+
+/// A loaded plugin, called on its own thread.
+#[derive(Debug)]
+pub struct Worker {
+    kind: Kind,
+    name: String,
+    patience: Duration,
+    jobs: Mutex<Option<Sender<Job>>>,
+    ended: Mutex<Receiver<()>>,
+    lost: AtomicBool,
+}
+
+/// One call, moved to the thread.
+struct Job {
+    method: Method,
+    request: Vec<u64>,
+    lent: usize,
+    events: Sender<Event>,
+}
+
+/// What the thread tells the caller meanwhile.
+enum Event {
+    /// The plugin calls what it was lent.
+    Called {
+        index: usize,
+        method: Method,
+        request: Vec<u64>,
+        /// What the plugin lends for that call; it waits for the answer.
+        lent: Vec<&'static dyn Callee>,
+        answer: Sender<Result<Vec<u64>, PluginError>>,
+    },
+    /// The call is over.
+    Done(Result<Vec<u64>, PluginError>),
+}
+
+/// What stands on the plugin's thread for what the host lent.
+struct Proxy {
+    index: usize,
+    events: Sender<Event>,
+}
+
+impl Callee for Proxy {
+    fn call(
+        &self,
+        method: Method,
+        request: &[u64],
+        lent: &[&dyn Callee],
+    ) -> Result<Vec<u64>, PluginError> {
+        let gone = || PluginError::Internal("the host has gone on without an answer".into());
+        let (answer, answered) = channel();
+        // SAFETY: only the lifetime changes; `recv` below keeps this frame until the host has
+        // answered or has dropped the channel, after which it uses none of it.
+        let lent = lent.iter().map(|one| unsafe { lengthened(*one) }).collect();
+        let called =
+            Event::Called { index: self.index, method, request: request.to_vec(), lent, answer };
+        self.events.send(called).map_err(|_| gone())?;
+        answered.recv().map_err(|_| gone())?
+    }
+}
+
+/// The same reference for longer than it is valid.
+///
+/// # Safety
+/// It must not be used after the referent has gone.
+unsafe fn lengthened<'a>(callee: &'a (dyn Callee + 'a)) -> &'static (dyn Callee + 'static) {
+    // SAFETY: references that differ in their lifetimes alone; the caller's promise.
+    unsafe { std::mem::transmute(callee) }
+}
+
+impl Worker {
+    /// Builds the plugin of a table, on its thread.
+    ///
+    /// # Errors
+    /// What the plugin refuses about its setup, or when it takes longer than `patience`.
+    pub(super) fn start(
+        table: &'static Table,
+        (kind, name): (Kind, &str),
+        setup: Vec<u64>,
+        world: Option<Box<dyn Callee>>,
+        patience: Duration,
+    ) -> Result<Arc<Self>, PluginError> {
+        let (jobs, todo) = channel::<Job>();
+        let (born, birth) = channel();
+        let (over, ended) = channel();
+        let live = move || {
+            // Freed after the plugin; one that is left alone keeps this frame, and it.
+            let world: Option<&dyn Callee> = world.as_deref();
+            match create(table, &setup, world.as_ref()) {
+                Err(error) => _ = born.send(Err(error)),
+                Ok(instance) => {
+                    _ = born.send(Ok(()));
+                    todo.iter().for_each(|job| work(table, instance, job));
+                    if let Some(release) = table.release {
+                        // SAFETY: created by this table on this thread, released once, after
+                        // every call on it.
+                        unsafe { release(instance) };
+                    }
+                }
+            }
+            _ = over.send(());
+        };
+        let thread = thread::Builder::new().name(format!("{kind} {name}")).stack_size(STACK_BYTES);
+        let started = thread.spawn(live);
+        started.map_err(|e| PluginError::Resource(format!("no thread for the plugin: {e}")))?;
+        let worker = Self {
+            kind,
+            name: name.to_owned(),
+            patience,
+            jobs: Mutex::new(Some(jobs)),
+            ended: Mutex::new(ended),
+            lost: AtomicBool::new(false),
+        };
+        match birth.recv_timeout(patience) {
+            Ok(Ok(())) => Ok(Arc::new(worker)),
+            Ok(Err(error)) => Err(worker.named("create", error)),
+            Err(_) => {
+                let error = worker.lose();
+                Err(worker.named("create", error))
+            }
+        }
+    }
+
+    /// Leaves the plugin alone for good.
+    fn lose(&self) -> PluginError {
+        self.lost.store(true, Ordering::Release);
+        let patience = self.patience.as_secs_f64();
+        PluginError::Internal(format!("no sign of life for {patience} s; it is left alone"))
+    }
+
+    /// A fault with the plugin and the entry that it is of; what a plugin says of its input and
+    /// its configuration needs none.
+    fn named(&self, entry: &str, error: PluginError) -> PluginError {
+        match error {
+            PluginError::Internal(text) => PluginError::Internal(format!(
+                "{} plugin \"{}\" in \"{entry}\": {text}",
+                self.kind, self.name
+            )),
+            other => other,
+        }
+    }
+}
+
+impl Callee for Worker {
+    fn call(
+        &self,
+        method: Method,
+        request: &[u64],
+        lent: &[&dyn Callee],
+    ) -> Result<Vec<u64>, PluginError> {
+        // One call at a time: the lock is held until the answer.
+        let jobs = self.jobs.lock().unwrap_or_else(PoisonError::into_inner);
+        let gone = || PluginError::Internal("it is left alone since it gave no answer".into());
+        if self.lost.load(Ordering::Acquire) {
+            return Err(gone());
+        }
+        let (events, told) = channel();
+        let job = Job { method, request: request.to_vec(), lent: lent.len(), events };
+        jobs.as_ref().ok_or_else(gone)?.send(job).map_err(|_| gone())?;
+        loop {
+            match told.recv_timeout(self.patience) {
+                Ok(Event::Done(result)) => return result,
+                Ok(Event::Called { index, method, request, lent: theirs, answer }) => {
+                    // What is lent lives while its lender waits, which it does until `answer`
+                    // is used or dropped; both come after this call.
+                    _ = answer.send(lent[index].call(method, &request, &theirs));
+                }
+                Err(RecvTimeoutError::Timeout) => return Err(self.lose()),
+                Err(RecvTimeoutError::Disconnected) => return Err(gone()),
+            }
+        }
+    }
+
+    fn blame(&self, method: Method, error: PluginError) -> PluginError {
+        self.named(method.name(), error)
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        *self.jobs.get_mut().unwrap_or_else(PoisonError::into_inner) = None;
+        if !self.lost.load(Ordering::Acquire) {
+            let ended = self.ended.get_mut().unwrap_or_else(PoisonError::into_inner);
+            // One that does not end in time is left alone like any other.
+            _ = ended.recv_timeout(self.patience);
+        }
+    }
+}
+
+/// Builds the plugin.
+fn create(
+    table: &Table,
+    setup: &[u64],
+    world: Option<&&dyn Callee>,
+) -> Result<*mut c_void, PluginError> {
+    let create = table.create.ok_or_else(missing)?;
+    let world = world.map_or(NO_SERVICE, service);
+    let mut instance = std::ptr::null_mut();
+    let (status, text) = with_message(|message| {
+        // SAFETY: the setup is valid for the call, and the world until the release.
+        unsafe { create(Span::of(setup), world, &mut instance, message) }
+    });
+    status.result(text)?;
+    if instance.is_null() {
+        return Err(PluginError::Internal("it built nothing".into()));
+    }
+    Ok(instance)
+}
+
+/// Does one call.
+fn work(table: &Table, instance: *mut c_void, job: Job) {
+    let Job { method, request, lent, events } = job;
+    let proxies: Vec<Proxy> =
+        (0..lent).map(|index| Proxy { index, events: events.clone() }).collect();
+    let lent: Vec<&dyn Callee> = proxies.iter().map(|proxy| proxy as &dyn Callee).collect();
+    let answered = table.call.ok_or_else(missing).and_then(|call| {
+        // SAFETY: the instance lives, on this thread.
+        unsafe { ask(call, instance, method, &request, &lent) }
+    });
+    // The caller may have gone on.
+    _ = events.send(Event::Done(answered));
+}
