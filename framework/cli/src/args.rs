@@ -81,7 +81,8 @@ pub struct CellArgs {
     /// Load a trusted dynamic library and let its plugins serve their kinds; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,
-    /// Leave a loaded plugin alone that has given no sign of life for so many seconds.
+    /// Leave a loaded plugin alone that has given no sign of life for so many seconds; 0 waits
+    /// for ever, and calls it a few microseconds faster.
     #[arg(
         long = "plugin-patience",
         value_name = "SECONDS",
@@ -469,8 +470,8 @@ fn views(text: &str) -> Result<NonZeroUsize, String> {
 
 fn patience(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|e: ParseFloatError| e.to_string())?;
-    let some = (seconds > 0.0 && seconds <= 86_400.0).then(|| Duration::from_secs_f64(seconds));
-    some.ok_or_else(|| "not above 0 and up to 86400".into())
+    let some = (0.0..=86_400.0).contains(&seconds).then(|| Duration::from_secs_f64(seconds));
+    some.ok_or_else(|| "not from 0 to 86400".into())
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -49,7 +49,7 @@ pub fn registry() -> Registry {
 
 /// Loads trusted dynamic libraries; each of their plugins serves its kind under its own name,
 /// in place of a linked plugin of that name. One that gives no sign of life for `patience` is
-/// left alone.
+/// left alone; zero is for ever.
 ///
 /// # Errors
 /// When a library has no manifest, is not the file that was trusted, is no plugin, or has a
@@ -74,7 +74,7 @@ pub fn load(registry: &mut Registry, paths: &[PathBuf], patience: Duration) -> R
 fn add(all: &mut Registry, offer: Offer, patience: Duration) {
     let name = offer.id.name.clone();
     let kind = offer.id.kind;
-    let build = move |setup: &Setup| offer.build(setup, patience);
+    let build = move |setup: &Setup| offer.build(setup, (!patience.is_zero()).then_some(patience));
     match kind {
         Kind::Camera => all.camera.add(&name, move |setup| Ok(Box::new(build(setup)?))),
         Kind::Perception => all.perception.add(&name, move |setup| Ok(Box::new(build(setup)?))),

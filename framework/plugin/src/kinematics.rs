@@ -28,6 +28,37 @@ impl<'a> IkQuery<'a> {
         Self { target, near, continuous: false, period_s: None, clearance: None }
     }
 
+    /// Refuses what no posture can be sought for or from, so that every implementation refuses
+    /// alike.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a pose that is not finite, a period that is no time, a wrong
+    /// joint count, or a start that is not finite or outside the limits.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), PluginError> {
+        let told = |cause: String| Err(PluginError::Input(cause));
+        if !self.target.to_homogeneous().iter().all(|v| v.is_finite()) {
+            return told("the target pose is not finite".into());
+        }
+        if self.period_s.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
+            return told("the period is no time".into());
+        }
+        let (given, wanted) = (self.near.len(), robot.joints().len());
+        if given != wanted {
+            return told(format!("the start has {given} positions, the arm {wanted} joints"));
+        }
+        let mut joints = robot.joints().iter().zip(self.near);
+        match joints.find(|(joint, q)| !joint.allows(**q)) {
+            None => Ok(()),
+            Some((joint, q)) if q.is_finite() => told(format!(
+                "the start: {} at {q:.4} rad is outside {:.4}..{:.4}",
+                joint.name(),
+                joint.lower(),
+                joint.upper()
+            )),
+            Some((joint, _)) => told(format!("the start: {} is not finite", joint.name())),
+        }
+    }
+
     /// The answer on the branch continuous with `near`.
     pub fn continuous(target: &'a Pose, near: &'a [f64]) -> Self {
         Self { continuous: true, ..Self::new(target, near) }

@@ -67,6 +67,47 @@ pub struct MotionTask<'a> {
     pub obstacles: &'a [Obstacle],
 }
 
+impl MotionTask<'_> {
+    /// Refuses what no planner can work on, so that every implementation refuses alike.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a start of the wrong length or outside the limits, and for a
+    /// key pose with a pose, length, force or opening that is none.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), PluginError> {
+        let told = |cause: String| Err(PluginError::Input(cause));
+        if !robot.within_limits(self.start) {
+            return told(
+                "the start must have one position within the limits for each joint".into(),
+            );
+        }
+        for key in self.key_poses {
+            let lengths = [key.approach_m, key.retreat_m, key.lift_m, key.opening_m];
+            if !key.pose.to_homogeneous().iter().all(|v| v.is_finite()) {
+                return told(format!("stage \"{}\": the pose is not finite", key.stage));
+            }
+            if !lengths.iter().all(|v| v.is_finite() && *v >= 0.0) {
+                return told(format!(
+                    "stage \"{}\": a length is negative or not finite",
+                    key.stage
+                ));
+            }
+            if key.until_contact_n.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
+                return told(format!("stage \"{}\": the force of contact is no force", key.stage));
+            }
+            let commanded = match key.gripper {
+                Some(GripperCommand::Open { opening_m }) => opening_m,
+                Some(GripperCommand::Close { .. }) | None => 0.0,
+            };
+            let stroke = robot.gripper().stroke_m();
+            if !commanded.is_finite() || key.opening_m.max(commanded) > stroke {
+                let stage = &key.stage;
+                return told(format!("stage \"{stage}\": the gripper opens by {stroke} m at most"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Joint positions at equal steps of time; starts and ends at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointTrajectory {

@@ -62,7 +62,7 @@ fn replace(path: &Path, bytes: &[u8]) {
 fn loaded(path: &Path, name: &str, setup: &Setup) -> Result<LoadedPlugin, PluginError> {
     let library = Library::open(path).expect("trusted");
     let offer = library.offers().iter().find(|offer| offer.id.name == name);
-    offer.expect("offered").build(setup, Duration::from_secs(60))
+    offer.expect("offered").build(setup, Some(Duration::from_secs(60)))
 }
 
 /// Why the library at `path` is refused.

@@ -91,16 +91,15 @@ impl Callee for Foreign {
         request: &[u64],
         lent: &[&dyn Callee],
     ) -> Result<Vec<u64>, PluginError> {
-        let call = self.0.call.ok_or_else(missing)?;
         // SAFETY: the promise of whoever made this.
-        unsafe { ask(call, self.0.object, method, request, lent) }
+        unsafe { ask(self.0.call, self.0.object, method, request, lent) }
     }
 }
 
 /// Calls across the border.
 ///
 /// # Safety
-/// `call` must be callable with `object` now and on this thread.
+/// `call` must be null, or callable with `object` now and on this thread.
 pub(super) unsafe fn ask(
     call: Call,
     object: *mut c_void,
@@ -108,6 +107,7 @@ pub(super) unsafe fn ask(
     request: &[u64],
     lent: &[&dyn Callee],
 ) -> Result<Vec<u64>, PluginError> {
+    let call = call.ok_or_else(missing)?;
     let services: Vec<Service> = lent.iter().map(service).collect();
     let mut given: Option<Vec<u64>> = None;
     let answer = Answer { target: (&raw mut given).cast(), give: Some(take) };
@@ -132,7 +132,7 @@ unsafe extern "C" fn take(target: *mut c_void, cells: Span<u64>) {
 }
 
 /// A callee of this side as a service. The reference must live for as long as it is lent.
-pub(super) fn service(callee: &&dyn Callee) -> Service {
+fn service(callee: &&dyn Callee) -> Service {
     Service { object: std::ptr::from_ref(callee).cast_mut().cast(), call: Some(serve_lent) }
 }
 
@@ -155,6 +155,42 @@ unsafe extern "C" fn serve_lent(
             let lent: Vec<&dyn Callee> = lent.iter().map(|one| one as &dyn Callee).collect();
             callee.call(method, request, &lent)
         })
+    }
+}
+
+/// A callee of this side that is lent for longer than one call.
+pub(super) struct Lasting(Box<Box<dyn Callee>>);
+
+impl Lasting {
+    pub(super) fn new(callee: Box<dyn Callee>) -> Self {
+        Self(Box::new(callee))
+    }
+
+    /// The callee as a service, until this is dropped.
+    pub(super) fn service(&self) -> Service {
+        let object = std::ptr::from_ref(&*self.0).cast_mut().cast();
+        Service { object, call: Some(serve_lasting) }
+    }
+}
+
+/// Answers a call of what [`Lasting`] made.
+unsafe extern "C" fn serve_lasting(
+    object: *mut c_void,
+    method: u64,
+    request: Span<u64>,
+    lent: Span<Service>,
+    answer: *const Answer,
+    message: *mut Message,
+) -> Status {
+    // SAFETY: the other side hands back the object of the service while it is lent.
+    let Some(callee) = (unsafe { object.cast::<Box<dyn Callee>>().as_ref() }) else {
+        return Status::INTERNAL;
+    };
+    let callee: &dyn Callee = &**callee;
+    // SAFETY: a reference to a callee that lives for the call, and the other side's records.
+    unsafe {
+        let object = std::ptr::from_ref(&callee).cast_mut().cast();
+        serve_lent(object, method, request, lent, answer, message)
     }
 }
 

@@ -18,6 +18,7 @@
 mod callee;
 mod cells;
 pub mod export;
+mod instance;
 mod kinds;
 pub mod library;
 pub mod manifest;

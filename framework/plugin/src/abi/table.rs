@@ -5,8 +5,8 @@ use super::message::Message;
 use crate::{Kind, PluginError};
 use std::ffi::c_void;
 
-/// First eight bytes of every table, `SEEONE` and two zeros in memory order.
-pub const MAGIC: u64 = u64::from_ne_bytes(*b"SEEONE\0\0");
+/// First eight bytes of every table: `SEEONE` and two zeros on a little-endian machine.
+pub const MAGIC: u64 = 0x0000_454E_4F45_4553;
 
 /// Must be equal on both sides: layouts, messages or meanings changed.
 pub const ABI_MAJOR: u32 = 2;
@@ -113,15 +113,17 @@ pub struct Answer {
 }
 
 /// Answers one message: `method` of `methods.rs` with its request. What is lent may be called
-/// until this call returns.
-pub type Call = unsafe extern "C" fn(
-    object: *mut c_void,
-    method: u64,
-    request: Span<u64>,
-    lent: Span<Service>,
-    answer: *const Answer,
-    message: *mut Message,
-) -> Status;
+/// until this call returns. May be null where nothing answers.
+pub type Call = Option<
+    unsafe extern "C" fn(
+        object: *mut c_void,
+        method: u64,
+        request: Span<u64>,
+        lent: Span<Service>,
+        answer: *const Answer,
+        message: *mut Message,
+    ) -> Status,
+>;
 
 /// Something that answers messages, lent to the called side. It may be called from any thread.
 #[repr(C)]
@@ -130,14 +132,14 @@ pub struct Service {
     /// Handed to `call` unchanged.
     pub object: *mut c_void,
     /// Answers; null when nothing is lent.
-    pub call: Option<Call>,
+    pub call: Call,
 }
 
 /// The beginning of every table, in every version.
 #[repr(C)]
 #[derive(Debug)]
 pub struct Header {
-    /// `SEEONE` and two zeros.
+    /// `MAGIC`.
     pub magic: u64,
     /// The ABI's major version that the library was built for.
     pub abi_major: u32,
@@ -157,8 +159,9 @@ pub struct Header {
     pub build_id: Span<u8>,
 }
 
-/// The table of one plugin. No function may unwind; a null one is refused. Every call on one
-/// instance, from `create` to `release`, comes from one thread, one after the other.
+/// The table of one plugin. No function may unwind; a null one is refused. The calls on
+/// one instance, from `create` to `release`, come one after the other; with the host's usual
+/// patience, which ends with a plugin that does not return, all from one thread.
 #[repr(C)]
 #[derive(Debug)]
 pub struct Table {
@@ -175,7 +178,7 @@ pub struct Table {
         ) -> Status,
     >,
     /// Answers one message; the object is the instance.
-    pub call: Option<Call>,
+    pub call: Call,
     /// Ends a plugin; called once, after every other call on it.
     pub release: Option<unsafe extern "C" fn(instance: *mut c_void)>,
 }
@@ -231,7 +234,7 @@ mod tests {
     #[test]
     #[cfg(target_pointer_width = "64")]
     fn the_layout_is_the_golden_one() {
-        assert_eq!(&MAGIC.to_ne_bytes(), b"SEEONE\0\0");
+        assert_eq!(&MAGIC.to_le_bytes(), b"SEEONE\0\0");
         assert_eq!((ABI_MAJOR, kind_code(Kind::Alignment)), (2, 1));
 
         assert_eq!(offset_of!(Span<u8>, data), 0);

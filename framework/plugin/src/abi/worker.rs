@@ -6,11 +6,11 @@
 //! are moved, and what is lent is called through a channel, on the host's own thread, which is
 //! closed when the host has gone on.
 
-use super::callee::{Callee, NO_SERVICE, ask, missing, service};
-use super::message::with_message;
+use super::callee::{Callee, Lasting, ask};
+use super::instance::{Named, create};
 use super::methods::Method;
-use super::table::{Span, Table};
-use crate::{Kind, PluginError};
+use super::table::Table;
+use crate::PluginError;
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -23,9 +23,8 @@ const STACK_BYTES: usize = 8 << 20;
 
 /// A loaded plugin, called on its own thread.
 #[derive(Debug)]
-pub struct Worker {
-    kind: Kind,
-    name: String,
+pub(super) struct Worker {
+    named: Named,
     patience: Duration,
     jobs: Mutex<Option<Sender<Job>>>,
     ended: Mutex<Receiver<()>>,
@@ -96,7 +95,7 @@ impl Worker {
     /// What the plugin refuses about its setup, or when it takes longer than `patience`.
     pub(super) fn start(
         table: &'static Table,
-        (kind, name): (Kind, &str),
+        named: Named,
         setup: Vec<u64>,
         world: Option<Box<dyn Callee>>,
         patience: Duration,
@@ -106,7 +105,7 @@ impl Worker {
         let (over, ended) = channel();
         let live = move || {
             // Freed after the plugin; one that is left alone keeps this frame, and it.
-            let world: Option<&dyn Callee> = world.as_deref();
+            let world = world.map(Lasting::new);
             match create(table, &setup, world.as_ref()) {
                 Err(error) => _ = born.send(Err(error)),
                 Ok(instance) => {
@@ -121,12 +120,11 @@ impl Worker {
             }
             _ = over.send(());
         };
-        let thread = thread::Builder::new().name(format!("{kind} {name}")).stack_size(STACK_BYTES);
+        let thread = thread::Builder::new().name(named.to_string()).stack_size(STACK_BYTES);
         let started = thread.spawn(live);
         started.map_err(|e| PluginError::Resource(format!("no thread for the plugin: {e}")))?;
         let worker = Self {
-            kind,
-            name: name.to_owned(),
+            named,
             patience,
             jobs: Mutex::new(Some(jobs)),
             ended: Mutex::new(ended),
@@ -134,10 +132,10 @@ impl Worker {
         };
         match birth.recv_timeout(patience) {
             Ok(Ok(())) => Ok(Arc::new(worker)),
-            Ok(Err(error)) => Err(worker.named("create", error)),
+            Ok(Err(error)) => Err(worker.named.fault("create", error)),
             Err(_) => {
                 let error = worker.lose();
-                Err(worker.named("create", error))
+                Err(worker.named.fault("create", error))
             }
         }
     }
@@ -147,18 +145,6 @@ impl Worker {
         self.lost.store(true, Ordering::Release);
         let patience = self.patience.as_secs_f64();
         PluginError::Internal(format!("no sign of life for {patience} s; it is left alone"))
-    }
-
-    /// A fault with the plugin and the entry that it is of; what a plugin says of its input and
-    /// its configuration needs none.
-    fn named(&self, entry: &str, error: PluginError) -> PluginError {
-        match error {
-            PluginError::Internal(text) => PluginError::Internal(format!(
-                "{} plugin \"{}\" in \"{entry}\": {text}",
-                self.kind, self.name
-            )),
-            other => other,
-        }
     }
 }
 
@@ -193,7 +179,7 @@ impl Callee for Worker {
     }
 
     fn blame(&self, method: Method, error: PluginError) -> PluginError {
-        self.named(method.name(), error)
+        self.named.fault(method.name(), error)
     }
 }
 
@@ -208,36 +194,14 @@ impl Drop for Worker {
     }
 }
 
-/// Builds the plugin.
-fn create(
-    table: &Table,
-    setup: &[u64],
-    world: Option<&&dyn Callee>,
-) -> Result<*mut c_void, PluginError> {
-    let create = table.create.ok_or_else(missing)?;
-    let world = world.map_or(NO_SERVICE, service);
-    let mut instance = std::ptr::null_mut();
-    let (status, text) = with_message(|message| {
-        // SAFETY: the setup is valid for the call, and the world until the release.
-        unsafe { create(Span::of(setup), world, &mut instance, message) }
-    });
-    status.result(text)?;
-    if instance.is_null() {
-        return Err(PluginError::Internal("it built nothing".into()));
-    }
-    Ok(instance)
-}
-
 /// Does one call.
 fn work(table: &Table, instance: *mut c_void, job: Job) {
     let Job { method, request, lent, events } = job;
     let proxies: Vec<Proxy> =
         (0..lent).map(|index| Proxy { index, events: events.clone() }).collect();
     let lent: Vec<&dyn Callee> = proxies.iter().map(|proxy| proxy as &dyn Callee).collect();
-    let answered = table.call.ok_or_else(missing).and_then(|call| {
-        // SAFETY: the instance lives, on this thread.
-        unsafe { ask(call, instance, method, &request, &lent) }
-    });
+    // SAFETY: the instance lives, on this thread.
+    let answered = unsafe { ask(table.call, instance, method, &request, &lent) };
     // The caller may have gone on.
     _ = events.send(Event::Done(answered));
 }

@@ -18,6 +18,7 @@ use super::cells::{Reader, Take};
 use super::methods::Method;
 use crate::PluginError;
 use seeone_core::robot::RobotModel;
+use std::fmt;
 use std::sync::Arc;
 
 pub(super) use setup::{SetupMessage, setup_message};
@@ -37,11 +38,16 @@ pub(super) mod served {
 
 /// Something on the other side of the border, with the trait of what it is; asked by another, it
 /// says so. What it answers is checked before it is believed.
-#[derive(Debug)]
 pub struct Remote<C> {
     callee: C,
     /// The robot that the other side knows already.
     robot: Option<Arc<RobotModel>>,
+}
+
+impl<C> fmt::Debug for Remote<C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Remote").finish_non_exhaustive()
+    }
 }
 
 impl<C: Callee> Remote<C> {

@@ -98,7 +98,7 @@ fn loaded(table: Table, config: &str, seed: u64) -> Result<LoadedPlugin, PluginE
     let offers = served(vec![table]).expect("sound");
     let config = config.parse().expect("TOML");
     let setup = Setup { config: &config, root: Path::new("."), seed, world: None, robot: None };
-    offers[0].build(&setup, PATIENCE)
+    offers[0].build(&setup, Some(PATIENCE))
 }
 
 fn align(plugin: &LoadedPlugin) -> Result<AlignmentOutcome, PluginError> {
@@ -177,6 +177,15 @@ fn answers_and_refusals_cross() {
     assert_eq!((found.residual, found.inlier_share, found.condition), (0.1, 0.5, 1.0));
     let told = loaded(sound(), "do = 'nothing'", 3).expect_err("refused");
     assert_eq!(told, PluginError::Configuration("do nothing?".into()));
+}
+
+#[test]
+fn without_patience_the_answers_are_the_same() {
+    let offers = served(vec![sound()]).expect("sound");
+    let config = toml::Table::new();
+    let setup = Setup { config: &config, root: Path::new("."), seed: 3, world: None, robot: None };
+    let direct = align(&offers[0].build(&setup, None).expect("built"));
+    assert_eq!(direct, align(&loaded(sound(), "", 3).expect("built")));
 }
 
 #[test]
