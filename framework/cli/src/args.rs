@@ -53,6 +53,12 @@ pub enum Verb {
     Ik(IkArgs),
     /// Check skill, scene, robot, object, cloud and weights files.
     Check(CheckArgs),
+    /// Begin something of your own.
+    New {
+        /// What.
+        #[command(subcommand)]
+        action: NewAction,
+    },
     /// Plugins: list what there is, check or trust a dynamic library.
     Plugins {
         /// What to do with them.
@@ -78,6 +84,14 @@ pub struct CellArgs {
     /// How often the robot may look and reach for the object if its hand closes on nothing.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
+    /// Plugins from dynamic libraries.
+    #[command(flatten)]
+    pub libraries: LibraryArgs,
+}
+
+/// Plugins from dynamic libraries.
+#[derive(Clone, Debug, Args)]
+pub struct LibraryArgs {
     /// Load a trusted dynamic library and let its plugins serve their kinds; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,
@@ -399,6 +413,9 @@ pub struct IkArgs {
     /// Keep away from what stands in this scene too, and not from the robot itself alone.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Plugins from dynamic libraries.
+    #[command(flatten)]
+    pub libraries: LibraryArgs,
     /// Use another plugin, e.g. `kinematics=damped-least-squares`.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
@@ -416,6 +433,29 @@ pub struct CheckArgs {
     /// As a JSON array of faults.
     #[arg(long)]
     pub json: bool,
+}
+
+/// `new ...`.
+#[derive(Debug, Subcommand)]
+pub enum NewAction {
+    /// A plugin: a crate that builds a dynamic library and passes its own tests.
+    Plugin(NewPluginArgs),
+}
+
+/// `new plugin`.
+#[derive(Clone, Debug, Args)]
+pub struct NewPluginArgs {
+    /// Its name, as it is chosen by `--method KIND=NAME`.
+    pub name: String,
+    /// What it does.
+    #[arg(long, value_parser = kind)]
+    pub kind: Kind,
+    /// The folder to make; left out, one of its name.
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Where this framework's sources lie.
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub framework: PathBuf,
 }
 
 /// `plugins ...`.
@@ -466,6 +506,11 @@ fn views(text: &str) -> Result<NonZeroUsize, String> {
     let views: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;
     let some = NonZeroUsize::new(views).filter(|_| views <= MOST_VIEWS);
     some.ok_or_else(|| format!("not from 1 to {MOST_VIEWS}"))
+}
+
+fn kind(text: &str) -> Result<Kind, String> {
+    let known = Kind::ALL.map(Kind::name).join(", ");
+    text.parse().map_err(|()| format!("not one of {known}"))
 }
 
 fn patience(text: &str) -> Result<Duration, String> {

@@ -1,6 +1,7 @@
 //! The plugins that the binary is linked with, by kind and name; the first of a kind is
 //! what is meant when nobody names one.
 
+use crate::args::LibraryArgs;
 use anyhow::Result;
 use seeone_camera_sim::{RecordedCamera, SimulatedCamera};
 use seeone_core::Diagnostic;
@@ -48,15 +49,17 @@ pub fn registry() -> Registry {
 }
 
 /// Loads trusted dynamic libraries; each of their plugins serves its kind under its own name,
-/// in place of a linked plugin of that name. One that gives no sign of life for `patience` is
-/// left alone; zero is for ever.
+/// in place of a linked plugin of that name.
 ///
 /// # Errors
 /// When a library has no manifest, is not the file that was trusted, is no plugin, or has a
 /// plugin of the kind and the name of another library's.
-pub fn load(registry: &mut Registry, paths: &[PathBuf], patience: Duration) -> Result<()> {
+pub fn load(registry: &mut Registry, libraries: &LibraryArgs) -> Result<()> {
+    let LibraryArgs { plugins, patience } = libraries;
+    // Zero is for ever.
+    let patience = (!patience.is_zero()).then_some(*patience);
     let mut loaded: BTreeMap<(Kind, String), &PathBuf> = BTreeMap::new();
-    for path in paths {
+    for path in plugins {
         for offer in Library::open(path)?.offers() {
             let (kind, name) = (offer.id.kind, offer.id.name.clone());
             if let Some(other) = loaded.insert((kind, name.clone()), path) {
@@ -71,10 +74,10 @@ pub fn load(registry: &mut Registry, paths: &[PathBuf], patience: Duration) -> R
 }
 
 /// Registers a loaded plugin.
-fn add(all: &mut Registry, offer: Offer, patience: Duration) {
+fn add(all: &mut Registry, offer: Offer, patience: Option<Duration>) {
     let name = offer.id.name.clone();
     let kind = offer.id.kind;
-    let build = move |setup: &Setup| offer.build(setup, (!patience.is_zero()).then_some(patience));
+    let build = move |setup: &Setup| offer.build(setup, patience);
     match kind {
         Kind::Camera => all.camera.add(&name, move |setup| Ok(Box::new(build(setup)?))),
         Kind::Perception => all.perception.add(&name, move |setup| Ok(Box::new(build(setup)?))),

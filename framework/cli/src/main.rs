@@ -20,7 +20,7 @@ mod verbs;
 mod workcell;
 
 use anyhow::Result;
-use args::{Cli, EvalArgs, EvalPart, ObjectsAction, PluginsAction, Verb};
+use args::{Cli, EvalArgs, EvalPart, NewAction, ObjectsAction, PluginsAction, Verb};
 use clap::Parser;
 use faults::Faults;
 use std::process::ExitCode;
@@ -76,6 +76,7 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Train(args) => verbs::train::run(args),
         Verb::Ik(args) => verbs::ik::run(args),
         Verb::Check(args) => verbs::check::run(args),
+        Verb::New { action: NewAction::Plugin(args) } => verbs::new::plugin::run(args),
         Verb::Plugins { action: PluginsAction::List { folders, json } } => {
             verbs::plugins::list(folders, *json)
         }

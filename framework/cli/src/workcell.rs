@@ -53,7 +53,7 @@ impl Workcell {
     /// is not trusted.
     pub fn open(args: &CellArgs) -> Result<Self> {
         let mut registry = builtin::registry();
-        builtin::load(&mut registry, &args.plugins, args.patience)?;
+        builtin::load(&mut registry, &args.libraries)?;
         let known = registry.known();
         let skill = Skill::read(&args.skill, &known).map_err(Faults)?;
         let scene = Scene::read(&args.scene, &known).map_err(Faults)?;

@@ -4,6 +4,7 @@ pub mod check;
 pub mod data;
 pub mod eval;
 pub mod ik;
+pub mod new;
 pub mod objects;
 pub mod perception;
 pub mod plugins;

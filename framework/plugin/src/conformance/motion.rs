@@ -92,12 +92,14 @@ fn goes_where_it_is_told(
     is_in_one_piece(robot, program)?;
 
     let rule = "the hand acts at each key pose, in order";
-    let acts = acts(robot, program);
-    hold(rule, acts.len() == keys.len(), || format!("{} acts", acts.len()))?;
-    for ((stage, command, pose), key) in acts.iter().zip(keys) {
-        let there = difference(pose, &key.pose).0 < THERE_M;
-        let as_told = *stage == key.stage && Some(*command) == key.gripper;
-        hold(rule, there && as_told, || format!("{stage}: {command:?} at {pose}"))?;
+    // Beside what the key poses say the hand may open on its way.
+    let mut acts = acts(robot, program).into_iter();
+    for key in keys {
+        let as_told = |(stage, command, pose): (&str, GripperCommand, Pose)| {
+            let there = difference(&pose, &key.pose).0 < THERE_M;
+            there && stage == key.stage && Some(command) == key.gripper
+        };
+        hold(rule, acts.any(as_told), || format!("not at \"{}\"", key.stage))?;
     }
     Ok(())
 }
