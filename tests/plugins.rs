@@ -94,13 +94,33 @@ fn a_run_survives_a_plugin_that_misbehaves_and_says_which() {
     for (kind, deed, entry, reason) in [
         ("transfer", "panic", "transfer", "a panic: as it was told"),
         ("transfer", "hang", "transfer", "no sign of life for 2 s"),
-        ("transfer", "nan", "transfer", "not to be believed: a candidate is out of its range"),
-        ("transfer", "nothing", "transfer", "not to be believed: there is no candidate"),
+        (
+            "transfer",
+            "nan",
+            "transfer",
+            "its answer is not to be believed: a candidate is out of its range",
+        ),
+        (
+            "transfer",
+            "nothing",
+            "transfer",
+            "its answer is not to be believed: there is no candidate",
+        ),
         ("transfer", "silence", "transfer", "it failed with status 4 and said nothing"),
         ("robot", "panic", "execute", "a panic: as it was told"),
         ("robot", "hang", "execute", "no sign of life for 2 s"),
-        ("robot", "nan", "execute", "not to be believed: the fingers are NaN m apart"),
-        ("robot", "nothing", "state", "not to be believed: 0 joints of a robot with 6"),
+        (
+            "robot",
+            "nan",
+            "execute",
+            "its answer is not to be believed: the fingers are NaN m apart",
+        ),
+        (
+            "robot",
+            "nothing",
+            "state",
+            "its answer is not to be believed: 0 joints of a robot with 6",
+        ),
         ("robot", "silence", "execute", "it failed with status 4 and said nothing"),
     ] {
         let bench = Bench::new();
