@@ -63,8 +63,8 @@ impl Transfer for Misbehaving {
 impl Robot for Misbehaving {
     fn state(&mut self) -> Result<RobotState, PluginError> {
         let joints = if *self == Self::Nothing { 0 } else { 6 };
-        // Where the shipped robots wait.
-        let home = [0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0];
+        // Near where the shipped robot waits.
+        let home = [0.0, -1.92, 1.4, -1.05, -1.5, 0.0];
         Ok(RobotState { joints: home[..joints].to_vec(), opening_m: 0.03 })
     }
 
