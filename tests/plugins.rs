@@ -3,11 +3,16 @@
 
 mod support;
 
+use seeone_plugin::abi::{Library, LoadedPlugin, Manifest, Offer};
+use seeone_plugin::conformance::{self, StillWorld, Violation, arm};
+use seeone_plugin::{Kind, PluginError, Setup};
 use seeone_runtime::record::{Channel, read};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
+use std::time::Duration;
 use support::{Bench, Call, root, seeone};
 use tempfile::TempDir;
 
@@ -84,6 +89,58 @@ fn a_run_with_every_plugin_loaded_is_the_run_with_every_plugin_linked() {
     let (linked, loaded) = (run("linked", &[]), run("loaded", &libraries));
     assert_eq!((linked.0, linked.1), (loaded.0, loaded.1));
     assert!(linked.2 == loaded.2, "the recordings differ");
+}
+
+/// Features a point of the shipped perception.
+const WIDTH: usize = 128;
+
+/// A camera over the suite's block, looking down; the recorded one shows the demonstration.
+const CAMERA: &str = "
+    pose = { xyz_m = [0.5, 0.0, 0.8], quat_xyzw = [1, 0, 0, 0] }
+    intrinsics = { width = 160, height = 120, fx = 96, fy = 96, cx = 79.5, cy = 59.5 }
+    crop = { centre_xy_m = [0.5, 0.0], half_extents_m = [0.25, 0.25], floor_m = 0.0, height_m = 0.4 }
+    cloud = \"skills/cap-wearing/demonstration.ply\"
+";
+
+/// Holds a loaded plugin to the rules of its kind.
+fn holds(offer: &Offer) -> Result<(), Violation> {
+    let (root, model, kind) = (root(), arm(), offer.id.kind);
+    let config = if kind == Kind::Camera { CAMERA } else { "" }.parse().expect("TOML");
+    let build = || -> Result<LoadedPlugin, PluginError> {
+        let setup = Setup {
+            config: &config,
+            root: &root,
+            seed: 1,
+            robot: Some(&model),
+            world: Some(Arc::new(StillWorld::default())),
+        };
+        offer.build(&setup, Some(Duration::from_secs(120)))
+    };
+    let mut plugin = build().expect("built");
+    match kind {
+        Kind::Camera => conformance::camera(&|| Ok(Box::new(build()?))),
+        Kind::Perception => conformance::perception(&mut plugin),
+        Kind::Encoding => conformance::encoding(&mut plugin, WIDTH),
+        Kind::Alignment => conformance::alignment(&plugin),
+        Kind::Transfer => conformance::transfer(&plugin),
+        Kind::Kinematics => conformance::kinematics(&plugin),
+        Kind::Motion => conformance::motion(&plugin),
+        Kind::Robot => conformance::robot(&model, &|| Ok(Box::new(build()?))),
+    }
+}
+
+#[test]
+fn every_plugin_keeps_the_rules_of_its_kind_when_it_is_loaded() {
+    let (_folder, libraries) = built(&LIBRARIES);
+    let mut held = 0;
+    for path in &libraries {
+        Manifest::write_for(Path::new(path)).expect("a sound library");
+        for offer in Library::open(Path::new(path)).expect("trusted").offers() {
+            holds(offer).unwrap_or_else(|broken| panic!("{}: {broken}", offer.id));
+            held += 1;
+        }
+    }
+    assert_eq!(held, 17);
 }
 
 #[test]

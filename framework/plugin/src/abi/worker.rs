@@ -28,7 +28,33 @@ pub(super) struct Worker {
     patience: Duration,
     jobs: Mutex<Option<Sender<Job>>>,
     ended: Mutex<Receiver<()>>,
-    lost: AtomicBool,
+    lost: Arc<AtomicBool>,
+}
+
+/// The world of a plugin, for as long as it is not left alone: one that was only slow moves
+/// nothing after the host has gone on.
+struct Revocable {
+    world: Box<dyn Callee>,
+    lost: Arc<AtomicBool>,
+}
+
+impl Callee for Revocable {
+    fn call(
+        &self,
+        method: Method,
+        request: &[u64],
+        lent: &[&dyn Callee],
+    ) -> Result<Vec<u64>, PluginError> {
+        if self.lost.load(Ordering::Acquire) {
+            return Err(gone());
+        }
+        self.world.call(method, request, lent)
+    }
+}
+
+/// The error of a plugin that comes too late.
+fn gone() -> PluginError {
+    PluginError::Internal("the host has gone on without an answer".into())
 }
 
 /// One call, moved to the thread.
@@ -67,7 +93,6 @@ impl Callee for Proxy {
         request: &[u64],
         lent: &[&dyn Callee],
     ) -> Result<Vec<u64>, PluginError> {
-        let gone = || PluginError::Internal("the host has gone on without an answer".into());
         let (answer, answered) = channel();
         // SAFETY: only the lifetime changes; `recv` below keeps this frame until the host has
         // answered or has dropped the channel, after which it uses none of it.
@@ -103,9 +128,13 @@ impl Worker {
         let (jobs, todo) = channel::<Job>();
         let (born, birth) = channel();
         let (over, ended) = channel();
+        let lost = Arc::new(AtomicBool::new(false));
+        let revocable =
+            |world| -> Box<dyn Callee> { Box::new(Revocable { world, lost: Arc::clone(&lost) }) };
+        let world = world.map(revocable).map(Lasting::new);
         let live = move || {
-            // Freed after the plugin; one that is left alone keeps this frame, and it.
-            let world = world.map(Lasting::new);
+            // The world is freed after the plugin; one that is left alone keeps this frame, and
+            // with it the world.
             match create(table, &setup, world.as_ref()) {
                 Err(error) => _ = born.send(Err(error)),
                 Ok(instance) => {
@@ -123,13 +152,8 @@ impl Worker {
         let thread = thread::Builder::new().name(named.to_string()).stack_size(STACK_BYTES);
         let started = thread.spawn(live);
         started.map_err(|e| PluginError::Resource(format!("no thread for the plugin: {e}")))?;
-        let worker = Self {
-            named,
-            patience,
-            jobs: Mutex::new(Some(jobs)),
-            ended: Mutex::new(ended),
-            lost: AtomicBool::new(false),
-        };
+        let worker =
+            Self { named, patience, jobs: Mutex::new(Some(jobs)), ended: Mutex::new(ended), lost };
         match birth.recv_timeout(patience) {
             Ok(Ok(())) => Ok(Arc::new(worker)),
             Ok(Err(error)) => Err(worker.named.fault("create", error)),
@@ -157,13 +181,13 @@ impl Callee for Worker {
     ) -> Result<Vec<u64>, PluginError> {
         // One call at a time: the lock is held until the answer.
         let jobs = self.jobs.lock().unwrap_or_else(PoisonError::into_inner);
-        let gone = || PluginError::Internal("it is left alone since it gave no answer".into());
+        let alone = || PluginError::Internal("it is left alone since it gave no answer".into());
         if self.lost.load(Ordering::Acquire) {
-            return Err(gone());
+            return Err(alone());
         }
         let (events, told) = channel();
         let job = Job { method, request: request.to_vec(), lent: lent.len(), events };
-        jobs.as_ref().ok_or_else(gone)?.send(job).map_err(|_| gone())?;
+        jobs.as_ref().ok_or_else(alone)?.send(job).map_err(|_| alone())?;
         loop {
             match told.recv_timeout(self.patience) {
                 Ok(Event::Done(result)) => return result,
