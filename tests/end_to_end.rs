@@ -8,7 +8,7 @@ mod support;
 use seeone_runtime::record::{Channel, Recording, read};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use support::{Call, root, seeone};
 use tempfile::TempDir;
@@ -125,7 +125,6 @@ fn a_run_tells_draws_and_records_itself_and_its_seed_repeats_it() {
         assert!(recording.of(channel).next().is_some(), "nothing in {}", channel.topic());
     }
     agrees(&recording, &once.outcome);
-    library_serves_like_the_linked_plugin(&once);
 
     let again = Attempt::new(&[]);
     assert_eq!(once.told(), again.told());
@@ -144,36 +143,6 @@ fn agrees(recording: &Recording, outcome: &Value) {
     assert!(recording.duration_s() > 1.0);
     let times: Vec<f64> = recording.of(Channel::Robot).map(|entry| entry.time_s).collect();
     assert!(times.is_sorted(), "the robot's moments are out of order");
-}
-
-/// The alignment plugin from a dynamic library, trusted first, changes nothing.
-fn library_serves_like_the_linked_plugin(linked: &Attempt) {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let library = folder.path().join("libprocrustes.so");
-    fs::copy(built_library(), &library).expect("the library");
-    let library = library.display().to_string();
-    let trusted = seeone(["plugins", "trust", &library]);
-    assert_eq!(trusted.status, Some(0), "{}", trusted.stderr);
-    let loaded = Attempt::new(&["--plugin", &library]);
-    assert_eq!(linked.told(), loaded.told());
-    assert!(linked.recording() == loaded.recording(), "the recordings differ");
-    let mut bytes = fs::read(&library).expect("the library");
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
-    fs::write(&library, bytes).expect("a changed library");
-    let changed = seeone(["run", SKILL, "--plugin", &library]);
-    assert_eq!(changed.status, Some(2), "{}", changed.stderr);
-    assert!(changed.stderr.contains("BLAKE3"), "{}", changed.stderr);
-}
-
-/// `procrustes` as a dynamic library, built beside this test.
-fn built_library() -> PathBuf {
-    let build =
-        ["build", "--release", "--quiet", "-p", "seeone-procrustes", "--example", "procrustes"];
-    let cargo = Command::new(env!("CARGO")).args(build).current_dir(root()).status();
-    assert!(cargo.expect("cargo starts").success(), "the library cannot be built");
-    let target = Path::new(env!("CARGO_BIN_EXE_seeone")).ancestors().nth(2).expect("a folder");
-    target.join("release/examples/libprocrustes.so")
 }
 
 #[test]

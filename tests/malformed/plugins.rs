@@ -15,8 +15,8 @@ fn an_untrusted_or_damaged_library_is_refused() {
     refused("no library to trust", &bench, &trusted, "L005", &["libmine.so"]);
     let manifest = |size: usize, hash: &str| {
         format!(
-            "schema = 1\nname = \"mine\"\nkind = \"alignment\"\nversion = \"1\"\nabi = [1, 0]\n\
-             size_bytes = {size}\nblake3 = \"{hash}\"\n"
+            "schema = 2\nabi_major = 2\nsize_bytes = {size}\nblake3 = \"{hash}\"\n\
+             [[plugin]]\nname = \"mine\"\nkind = \"alignment\"\nversion = \"1\"\n"
         )
     };
     bench.write("libmine.so.toml", manifest(600, &"0".repeat(64)));

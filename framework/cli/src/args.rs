@@ -8,6 +8,7 @@ use seeone_runtime::files::Family;
 use seeone_runtime::methods::parse_override;
 use std::num::{NonZeroUsize, ParseFloatError, ParseIntError};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// See one, do many: a robot watches one manipulation of one deformable object and does
 /// it on every other object of that category.
@@ -51,7 +52,7 @@ pub enum Verb {
     ///
     /// Exit status 0 once everything is answered, whatever the answers say.
     Ik(IkArgs),
-    /// Write files to begin with, which pass `check` as they are: a skill, a robot.
+    /// Begin a plugin, which passes its tests as it is, or a skill or a robot, which pass `check`.
     New {
         /// What to begin.
         #[command(subcommand)]
@@ -65,7 +66,7 @@ pub enum Verb {
         #[arg(value_parser = family)]
         kind: Family,
     },
-    /// Plugins: list what is built in, trust a dynamic library.
+    /// Plugins: list what there is, check or trust a dynamic library.
     Plugins {
         /// What to do with them.
         #[command(subcommand)]
@@ -91,9 +92,27 @@ pub struct CellArgs {
     /// task says itself how often its steps are tried.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
-    /// Load a trusted dynamic library and let it serve its kind; may be repeated.
+    /// Plugins from dynamic libraries.
+    #[command(flatten)]
+    pub libraries: LibraryArgs,
+}
+
+/// Plugins from dynamic libraries.
+#[derive(Clone, Debug, Args)]
+pub struct LibraryArgs {
+    /// Load a trusted dynamic library and let its plugins serve their kinds; may be repeated.
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,
+    /// Leave a loaded plugin alone that has given no sign of life for so many seconds; 0 waits
+    /// for ever, and calls it a few microseconds faster.
+    #[arg(
+        long = "plugin-patience",
+        value_name = "SECONDS",
+        default_value = "60",
+        allow_negative_numbers = true,
+        value_parser = patience
+    )]
+    pub patience: Duration,
 }
 
 /// `run`.
@@ -406,6 +425,9 @@ pub struct IkArgs {
     /// Keep away from what stands in this scene too, and not from the robot itself alone.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
+    /// Plugins from dynamic libraries.
+    #[command(flatten)]
+    pub libraries: LibraryArgs,
     /// Use another plugin, e.g. `kinematics=damped-least-squares`.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
@@ -417,6 +439,8 @@ pub struct IkArgs {
 /// `new ...`.
 #[derive(Debug, Subcommand)]
 pub enum NewAction {
+    /// A plugin: a crate that builds a dynamic library and passes its own tests.
+    Plugin(NewPluginArgs),
     /// A skill, begun from the demonstration of another.
     Skill(NewSkillArgs),
     /// A robot file for an arm that a URDF describes.
@@ -469,14 +493,46 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
+/// `new plugin`.
+#[derive(Clone, Debug, Args)]
+pub struct NewPluginArgs {
+    /// Its name, as it is chosen by `--method KIND=NAME`.
+    pub name: String,
+    /// What it does.
+    #[arg(long, value_parser = kind)]
+    pub kind: Kind,
+    /// The folder to make; left out, one of its name.
+    #[arg(long, value_name = "FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Where this framework's sources lie.
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub framework: PathBuf,
+}
+
 /// `plugins ...`.
 #[derive(Debug, Subcommand)]
 pub enum PluginsAction {
-    /// What is built in, by kind.
+    /// What is built in, by kind; and which libraries of a folder are trusted, or why not.
     List {
+        /// Folders to look for libraries in.
+        folders: Vec<PathBuf>,
         /// As a JSON array.
         #[arg(long)]
         json: bool,
+    },
+    /// Try a dynamic library, trusted or not: what it offers, or why it cannot be served.
+    ///
+    /// It is loaded by another process, so that a library that ends its process is told like
+    /// any other fault.
+    Check {
+        /// The library.
+        library: PathBuf,
+    },
+    /// Loads a library unchecked, for `check` alone.
+    #[command(hide = true)]
+    Probe {
+        /// The library.
+        library: PathBuf,
     },
     /// Write the manifest of a dynamic library: from then on this very file is loaded.
     Trust {
@@ -507,6 +563,17 @@ fn views(text: &str) -> Result<NonZeroUsize, String> {
     let views: usize = text.parse().map_err(|e: ParseIntError| e.to_string())?;
     let some = NonZeroUsize::new(views).filter(|_| views <= MOST_VIEWS);
     some.ok_or_else(|| format!("not from 1 to {MOST_VIEWS}"))
+}
+
+fn kind(text: &str) -> Result<Kind, String> {
+    let known = Kind::ALL.map(Kind::name).join(", ");
+    text.parse().map_err(|()| format!("not one of {known}"))
+}
+
+fn patience(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|e: ParseFloatError| e.to_string())?;
+    let some = (0.0..=86_400.0).contains(&seconds).then(|| Duration::from_secs_f64(seconds));
+    some.ok_or_else(|| "not from 0 to 86400".into())
 }
 
 fn share(text: &str) -> Result<f64, String> {

@@ -1,13 +1,14 @@
 //! The plugins that the binary is linked with, by kind and name; the first of a kind is
 //! what is meant when nobody names one.
 
+use crate::args::LibraryArgs;
 use anyhow::Result;
 use seeone_camera_sim::{RecordedCamera, SimulatedCamera};
 use seeone_core::Diagnostic;
 use seeone_feature_match::FeatureMatch;
 use seeone_motion::{JointLine, Planner};
-use seeone_plugin::Kind;
-use seeone_plugin::abi::Library;
+use seeone_plugin::abi::{Library, Offer};
+use seeone_plugin::{Kind, Setup};
 use seeone_procrustes::{Procrustes, Ransac};
 use seeone_qp_ik::{DampedLeastSquares, QpIk};
 use seeone_runtime::methods::Methods;
@@ -17,7 +18,7 @@ use seeone_ur5_ag95_sim::SimulatedArm;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::time::Duration;
 
 /// Where the networks' weights lie, from the folder in which the binary is run.
 pub const WEIGHTS: [&str; 2] = ["plugins/nst/weights", "plugins/nse/weights"];
@@ -47,23 +48,45 @@ pub fn registry() -> Registry {
     all
 }
 
-/// Loads a trusted dynamic library; it serves its kind under its own name, in place of a
-/// linked plugin of that name.
+/// Loads trusted dynamic libraries; each of their plugins serves its kind under its own name,
+/// in place of a linked plugin of that name.
 ///
 /// # Errors
-/// When the library has no manifest, is not the file that was trusted, or is no plugin.
-pub fn load(registry: &mut Registry, path: &Path) -> Result<()> {
-    let library = Arc::new(Library::open(path)?);
-    let (kind, name) = (library.manifest().kind, library.manifest().name.clone());
-    match kind {
-        Kind::Alignment => {
-            registry.alignment.add(&name, move |setup| library.alignment(setup));
-            Ok(())
+/// When a library has no manifest, is not the file that was trusted, is no plugin, or has a
+/// plugin of the kind and the name of another library's.
+pub fn load(registry: &mut Registry, libraries: &LibraryArgs) -> Result<()> {
+    let LibraryArgs { plugins, patience } = libraries;
+    // Zero is for ever.
+    let patience = (!patience.is_zero()).then_some(*patience);
+    let mut loaded: BTreeMap<(Kind, String), &PathBuf> = BTreeMap::new();
+    for path in plugins {
+        for offer in Library::open(path)?.offers() {
+            let (kind, name) = (offer.id.kind, offer.id.name.clone());
+            if let Some(other) = loaded.insert((kind, name.clone()), path) {
+                let cause = format!("{} has a {kind} plugin \"{name}\" too", other.display());
+                let hint = "load one of them";
+                return Err(Diagnostic::new("L012", cause).in_file(path).hint(hint).into());
+            }
+            add(registry, offer.clone(), patience);
         }
-        other => Err(Diagnostic::new("A020", format!("a library cannot serve the kind {other}"))
-            .in_file(path)
-            .hint("the kind that can be loaded is alignment")
-            .into()),
+    }
+    Ok(())
+}
+
+/// Registers a loaded plugin.
+fn add(all: &mut Registry, offer: Offer, patience: Option<Duration>) {
+    let name = offer.id.name.clone();
+    let kind = offer.id.kind;
+    let build = move |setup: &Setup| offer.build(setup, patience);
+    match kind {
+        Kind::Camera => all.camera.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Perception => all.perception.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Encoding => all.encoding.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Alignment => all.alignment.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Transfer => all.transfer.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Kinematics => all.kinematics.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Motion => all.motion.add(&name, move |setup| Ok(Box::new(build(setup)?))),
+        Kind::Robot => all.robot.add(&name, move |setup| Ok(Box::new(build(setup)?))),
     }
 }
 

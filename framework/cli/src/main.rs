@@ -83,7 +83,16 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::New { action: NewAction::Robot(args) } => verbs::new::robot::run(args),
         Verb::Check(args) => verbs::check::run(args),
         Verb::Schema { kind } => verbs::schema::run(*kind),
-        Verb::Plugins { action: PluginsAction::List { json } } => verbs::plugins::list(*json),
+        Verb::New { action: NewAction::Plugin(args) } => verbs::new::plugin::run(args),
+        Verb::Plugins { action: PluginsAction::List { folders, json } } => {
+            verbs::plugins::list(folders, *json)
+        }
+        Verb::Plugins { action: PluginsAction::Check { library } } => {
+            verbs::plugins::check(library)
+        }
+        Verb::Plugins { action: PluginsAction::Probe { library } } => {
+            verbs::plugins::probe(library)
+        }
         Verb::Plugins { action: PluginsAction::Trust { library } } => {
             verbs::plugins::trust(library)
         }

@@ -5,10 +5,11 @@ use anyhow::{Result, anyhow};
 use nalgebra::Point3;
 use seeone_core::Diagnostic;
 use seeone_core::random::generator;
-use seeone_plugin::{Judge, Measure, PluginError, Verdict, WorldHandle};
+use seeone_core::{Pose, TriangleMesh};
+use seeone_plugin::{Judge, Measure, PluginError, Verdict, World, WorldState};
 use seeone_runtime::files::Scene;
 use seeone_sim::WearError;
-use seeone_sim::cell::Cell;
+use seeone_sim::cell::{Cell, FRAME_S};
 use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
 use seeone_sim::surroundings::{Frictions, Head, Surroundings};
@@ -76,14 +77,18 @@ impl SimulatedCell {
         Ok(())
     }
 
-    /// The handle for plugins.
-    pub fn handle(&self) -> WorldHandle {
-        WorldHandle::new(Arc::clone(&self.cell))
+    /// The cell as plugins are given it.
+    pub fn world(&self) -> Arc<dyn World> {
+        Arc::new(SharedCell(Arc::clone(&self.cell)))
     }
 
     /// The judge of this cell.
     pub fn judge(&self) -> CellJudge {
-        CellJudge { cell: Arc::clone(&self.cell), head: self.head, worn: Arc::clone(&self.worn) }
+        CellJudge {
+            cell: SharedCell(Arc::clone(&self.cell)),
+            head: self.head,
+            worn: Arc::clone(&self.worn),
+        }
     }
 
     /// The worn state on this cell's head, in `world`, metres.
@@ -101,28 +106,68 @@ fn check(scene: &Scene) -> Result<(), Diagnostic> {
     Ok(())
 }
 
+/// The cell, locked for as long as one call of it.
+struct SharedCell(Arc<Mutex<Cell>>);
+
+impl SharedCell {
+    fn lock(&self) -> Result<MutexGuard<'_, Cell>, PluginError> {
+        self.0.lock().map_err(|_| PluginError::Internal("the simulated cell broke down".into()))
+    }
+}
+
+impl World for SharedCell {
+    fn state(&self) -> Result<WorldState, PluginError> {
+        let cell = self.lock()?;
+        Ok(WorldState {
+            time_s: cell.time_s(),
+            frame_s: FRAME_S,
+            opening_m: cell.opening_m(),
+            fingers_move: cell.fingers_move(),
+            pads_feel_load: cell.pads_feel_load(),
+            load_n: cell.load_n(),
+        })
+    }
+
+    fn place_hand(&self, pose: &Pose) -> Result<(), PluginError> {
+        self.lock()?.place_hand(pose);
+        Ok(())
+    }
+
+    fn advance(&self, pose: &Pose) -> Result<(), PluginError> {
+        self.lock()?.advance(pose).map_err(PluginError::Internal)
+    }
+
+    fn close_fingers(&self, force_n: f64) -> Result<(), PluginError> {
+        self.lock()?.close(force_n);
+        Ok(())
+    }
+
+    fn open_fingers(&self, opening_m: f64) -> Result<(), PluginError> {
+        self.lock()?.open(opening_m);
+        Ok(())
+    }
+
+    fn surfaces(&self) -> Result<Vec<TriangleMesh>, PluginError> {
+        Ok(self.lock()?.surfaces())
+    }
+}
+
 /// Judges by the world's own vertices (method: Eq. 11 and 12).
 pub struct CellJudge {
-    cell: Arc<Mutex<Cell>>,
+    cell: SharedCell,
     head: Head,
     worn: Arc<Worn>,
 }
 
-impl CellJudge {
-    fn lock(&self) -> Result<MutexGuard<'_, Cell>, PluginError> {
-        self.cell.lock().map_err(|_| PluginError::Internal("the simulated cell broke down".into()))
-    }
-}
-
 impl Judge for CellJudge {
     fn grasped(&mut self) -> Result<bool, PluginError> {
-        self.lock()?.holds_object().map_err(PluginError::Internal)
+        self.cell.lock()?.holds_object().map_err(PluginError::Internal)
     }
 
     fn judge(&mut self, measure: Measure, grasped: bool) -> Result<Verdict, PluginError> {
         let Measure::Worn { tolerance_d } = measure;
         let (at_rest, reached) = {
-            let mut cell = self.lock()?;
+            let mut cell = self.cell.lock()?;
             let at_rest = cell.settle(VERDICT_LIMIT_S).map_err(PluginError::Internal)?;
             let to_head = self.head.pose.inverse();
             (at_rest, cell.vertices().iter().map(|v| to_head * v).collect::<Vec<_>>())
@@ -155,7 +200,8 @@ impl Judge for CellJudge {
     }
 
     fn object(&self) -> Vec<[f64; 3]> {
-        self.lock()
+        self.cell
+            .lock()
             .map(|cell| cell.vertices().iter().map(|v| (*v).into()).collect())
             .unwrap_or_default()
     }

@@ -41,9 +41,7 @@ impl Site {
     /// Every fault found in the first file that has any, a plugin that is not trusted.
     pub fn open(args: &CellArgs) -> Result<Self> {
         let mut registry = builtin::registry();
-        for library in &args.plugins {
-            builtin::load(&mut registry, library)?;
-        }
+        builtin::load(&mut registry, &args.libraries)?;
         let known = registry.known();
         let task = Task::read(&args.skill, &known).map_err(Faults)?;
         let unknown = files::unknown_objects(&args.skill, &task.objects());
@@ -84,7 +82,7 @@ impl Site {
     }
 
     fn cell(&self, simulated: &SimulatedCell, seed: u64) -> plugins::Cell<'_> {
-        let world = Some(simulated.handle());
+        let world = Some(simulated.world());
         plugins::Cell {
             config: &self.config,
             root: Path::new("."),

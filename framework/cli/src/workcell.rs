@@ -56,9 +56,7 @@ impl Workcell {
     /// is not trusted.
     pub fn open(args: &CellArgs) -> Result<Self> {
         let mut registry = builtin::registry();
-        for library in &args.plugins {
-            builtin::load(&mut registry, library)?;
-        }
+        builtin::load(&mut registry, &args.libraries)?;
         let known = registry.known();
         let skill = Skill::read(&args.skill, &known).map_err(Faults)?;
         let scene = Scene::read(&args.scene, &known).map_err(Faults)?;
@@ -77,7 +75,7 @@ impl Workcell {
             tries: args.tries as usize,
             config,
             provenance,
-            libraries: args.plugins.clone(),
+            libraries: args.libraries.plugins.clone(),
         })
     }
 
@@ -98,7 +96,7 @@ impl Workcell {
             root: Path::new("."),
             seed: attempt.seed,
             robot: &self.robot,
-            world: Some(cell.handle()),
+            world: Some(cell.world()),
         };
         let judge = Box::new(cell.judge());
         let plugins = Plugins::build(&self.registry, &self.methods, &built, Some(judge))?;

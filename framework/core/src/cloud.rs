@@ -15,10 +15,12 @@ impl Cloud {
     /// # Errors
     /// The index of the first point that is not finite.
     pub fn new(points: Vec<Point3<f64>>) -> Result<Self, usize> {
-        match points.iter().position(|p| !p.coords.iter().all(|v| v.is_finite())) {
-            Some(index) => Err(index),
-            None => Ok(Self { points }),
+        let finite = |p: &Point3<f64>| p.x.is_finite() & p.y.is_finite() & p.z.is_finite();
+        // Without a branch a point, so that whole clouds are looked through at once.
+        if points.iter().fold(true, |all, p| all & finite(p)) {
+            return Ok(Self { points });
         }
+        Err(points.iter().position(|p| !finite(p)).unwrap_or_default())
     }
 
     /// The points.

@@ -73,6 +73,22 @@ pub struct AlignmentOutcome {
     pub condition: f64,
 }
 
+impl AlignmentOutcome {
+    /// Says what no alignment may answer.
+    ///
+    /// # Errors
+    /// A sentence about a number that is not finite or out of its range.
+    pub fn check(&self) -> Result<(), String> {
+        let share = 0.0..=1.0;
+        let sound = self.transform.to_homogeneous().iter().all(|v| v.is_finite())
+            && self.residual.is_finite()
+            && self.residual >= 0.0
+            && share.contains(&self.inlier_share)
+            && share.contains(&self.condition);
+        if sound { Ok(()) } else { Err(format!("a number is out of its range: {self:?}")) }
+    }
+}
+
 /// Correspondences -> similarity (method: Eq. 6, Procrustes).
 pub trait Alignment: Send + Sync {
     /// Aligns the pairs.

@@ -15,6 +15,26 @@ pub struct Observation {
     pub camera_position: Point3<f64>,
 }
 
+impl Observation {
+    /// Says what no camera may answer.
+    ///
+    /// # Errors
+    /// A sentence about an image of another size than its own, or a camera that is nowhere.
+    pub fn check(&self) -> Result<(), String> {
+        if let Some(image) = &self.depth {
+            let (width, height) = (image.intrinsics.width, image.intrinsics.height);
+            let pixels = image.depth_m.len();
+            if width.checked_mul(height) != Some(pixels) {
+                return Err(format!("a depth image of {width} x {height} has {pixels} pixels"));
+            }
+        }
+        if !self.camera_position.coords.iter().all(|v| v.is_finite()) {
+            return Err("the camera's position is not finite".into());
+        }
+        Ok(())
+    }
+}
+
 /// A depth camera that knows its pose and cuts the target out of what it sees.
 pub trait Camera: Send {
     /// Takes one image of the cell as it is now.

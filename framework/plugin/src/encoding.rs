@@ -13,6 +13,21 @@ pub struct Features {
 }
 
 impl Features {
+    /// Says what no field may answer to `rows` query points.
+    ///
+    /// # Errors
+    /// A sentence about a wrong length or a number that is not finite.
+    pub fn check(&self, rows: usize) -> Result<(), String> {
+        let values = self.values.len();
+        if rows.checked_mul(self.width) != Some(values) {
+            return Err(format!("{rows} points of {} features each have {values}", self.width));
+        }
+        if !self.values.iter().all(|v| v.is_finite()) {
+            return Err("a feature is not finite".into());
+        }
+        Ok(())
+    }
+
     /// Mean absolute difference of two feature sets of equal shape: the loss of Eq. 9.
     pub fn mean_difference(&self, other: &Self) -> f64 {
         let sum: f64 =

@@ -28,6 +28,37 @@ impl<'a> IkQuery<'a> {
         Self { target, near, continuous: false, period_s: None, clearance: None }
     }
 
+    /// Refuses what no posture can be sought for or from, so that every implementation refuses
+    /// alike.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a pose that is not finite, a period that is no time, a wrong
+    /// joint count, or a start that is not finite or outside the limits.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), PluginError> {
+        let told = |cause: String| Err(PluginError::Input(cause));
+        if !self.target.to_homogeneous().iter().all(|v| v.is_finite()) {
+            return told("the target pose is not finite".into());
+        }
+        if self.period_s.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
+            return told("the period is no time".into());
+        }
+        let (given, wanted) = (self.near.len(), robot.joints().len());
+        if given != wanted {
+            return told(format!("the start has {given} positions, the arm {wanted} joints"));
+        }
+        let mut joints = robot.joints().iter().zip(self.near);
+        match joints.find(|(joint, q)| !joint.allows(**q)) {
+            None => Ok(()),
+            Some((joint, q)) if q.is_finite() => told(format!(
+                "the start: {} at {q:.4} rad is outside {:.4}..{:.4}",
+                joint.name(),
+                joint.lower(),
+                joint.upper()
+            )),
+            Some((joint, _)) => told(format!("the start: {} is not finite", joint.name())),
+        }
+    }
+
     /// The answer on the branch continuous with `near`.
     pub fn continuous(target: &'a Pose, near: &'a [f64]) -> Self {
         Self { continuous: true, ..Self::new(target, near) }
@@ -60,6 +91,28 @@ pub struct IkOutcome {
     pub contact: Option<Contact>,
     /// Why it is not solved, or touches something.
     pub reason: Option<String>,
+}
+
+impl IkOutcome {
+    /// Says what no kinematics may answer for `robot`.
+    ///
+    /// # Errors
+    /// A sentence about joints that are not the robot's or not within its limits, errors that
+    /// are no lengths, or a failure without a reason.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), String> {
+        if !robot.within_limits(&self.joints) {
+            let limits = "one position within the limits for each joint";
+            return Err(format!("{:?} is not {limits}", self.joints));
+        }
+        let errors = [self.position_error_m, self.rotation_error_rad];
+        if !errors.iter().all(|e| e.is_finite() && *e >= 0.0) {
+            return Err(format!("the remaining errors are {errors:?}"));
+        }
+        if self.status == IkStatus::Infeasible && self.reason.is_none() {
+            return Err("it found no solution and gives no reason".into());
+        }
+        Ok(())
+    }
 }
 
 /// Tool pose -> joint positions.

@@ -20,6 +20,7 @@ pub mod robot;
 pub mod setup;
 pub mod sheet;
 pub mod transfer;
+pub mod world;
 
 pub use alignment::{Alignment, AlignmentOutcome, Correspondences};
 pub use camera::{Camera, Observation};
@@ -33,6 +34,7 @@ pub use motion::{
     Action, JointTrajectory, KeyPose, Motion, MotionOutcome, MotionTask, Program, Step,
 };
 pub use perception::{CanonicalCloud, Perception};
-pub use robot::{Felt, GripperCommand, Robot, RobotSample, RobotState};
-pub use setup::{Setup, WorldHandle};
+pub use robot::{Felt, GripperCommand, Robot, RobotSample, RobotState, Watch};
+pub use setup::Setup;
 pub use transfer::{Candidate, Transfer, TransferTask};
+pub use world::{World, WorldState};

@@ -67,6 +67,47 @@ pub struct MotionTask<'a> {
     pub obstacles: &'a [Obstacle],
 }
 
+impl MotionTask<'_> {
+    /// Refuses what no planner can work on, so that every implementation refuses alike.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a start of the wrong length or outside the limits, and for a
+    /// key pose with a pose, length, force or opening that is none.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), PluginError> {
+        let told = |cause: String| Err(PluginError::Input(cause));
+        if !robot.within_limits(self.start) {
+            return told(
+                "the start must have one position within the limits for each joint".into(),
+            );
+        }
+        for key in self.key_poses {
+            let lengths = [key.approach_m, key.retreat_m, key.lift_m, key.opening_m];
+            if !key.pose.to_homogeneous().iter().all(|v| v.is_finite()) {
+                return told(format!("stage \"{}\": the pose is not finite", key.stage));
+            }
+            if !lengths.iter().all(|v| v.is_finite() && *v >= 0.0) {
+                return told(format!(
+                    "stage \"{}\": a length is negative or not finite",
+                    key.stage
+                ));
+            }
+            if key.until_contact_n.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
+                return told(format!("stage \"{}\": the force of contact is no force", key.stage));
+            }
+            let commanded = match key.gripper {
+                Some(GripperCommand::Open { opening_m }) => opening_m,
+                Some(GripperCommand::Close { .. }) | None => 0.0,
+            };
+            let stroke = robot.gripper().stroke_m();
+            if !commanded.is_finite() || key.opening_m.max(commanded) > stroke {
+                let stage = &key.stage;
+                return told(format!("stage \"{stage}\": the gripper opens by {stroke} m at most"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Joint positions at equal steps of time; starts and ends at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointTrajectory {
@@ -77,6 +118,32 @@ pub struct JointTrajectory {
 }
 
 impl JointTrajectory {
+    /// Says what `robot` cannot follow.
+    ///
+    /// # Errors
+    /// A sentence about a trajectory without samples or period, or a sample that has not one
+    /// finite position within the limits for each joint.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), String> {
+        positive("sample period", self.period_s)?;
+        if self.positions.is_empty() {
+            return Err("a trajectory has no samples".into());
+        }
+        for (i, sample) in self.positions.iter().enumerate() {
+            if sample.len() != robot.joints().len() {
+                return Err(format!("sample {i} has {} joints", sample.len()));
+            }
+            for (position, joint) in sample.iter().zip(robot.joints()) {
+                let low = joint.lower() - LIMIT_TOLERANCE_RAD;
+                let high = joint.upper() + LIMIT_TOLERANCE_RAD;
+                if !(low..=high).contains(position) {
+                    let name = joint.name();
+                    return Err(format!("sample {i} takes {name} to {position:.3} rad"));
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// How long it takes, seconds.
     pub fn duration_s(&self) -> f64 {
         self.period_s * self.positions.len().saturating_sub(1) as f64
@@ -110,12 +177,15 @@ pub enum Action {
     Grip(GripperCommand),
 }
 
+/// What a step can be for.
+pub const PURPOSES: [&str; 5] = ["approach", "grip", "lift", "transit", "retreat"];
+
 /// An action and the stage it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// The stage's name, as in the skill file.
     pub stage: String,
-    /// What it is for: `approach`, `grip`, `lift`, `transit`, `retreat`.
+    /// What it is for: one of [`PURPOSES`].
     pub purpose: &'static str,
     /// What is done.
     pub action: Action,
@@ -161,6 +231,48 @@ pub enum MotionOutcome {
         /// Why, with numbers.
         reason: String,
     },
+}
+
+/// A planned position may be beyond a limit by rounding only, radians.
+const LIMIT_TOLERANCE_RAD: f64 = 1e-6;
+
+impl MotionOutcome {
+    /// Says what no planner may answer for `robot`.
+    ///
+    /// # Errors
+    /// A sentence about a trajectory without samples, period or the robot's joints, a position
+    /// that is not within the limits, a number that is not finite, or a refusal without a
+    /// reason.
+    pub fn check(&self, robot: &RobotModel) -> Result<(), String> {
+        let (program, cost) = match self {
+            MotionOutcome::Planned { program, cost } => (program, cost),
+            MotionOutcome::Infeasible { stage, reason } if reason.trim().is_empty() => {
+                return Err(format!("there is no way to \"{stage}\", and no reason is given"));
+            }
+            MotionOutcome::Infeasible { .. } => return Ok(()),
+        };
+        if !cost.is_finite() {
+            return Err(format!("the cost is {cost}"));
+        }
+        for (i, step) in program.steps.iter().enumerate() {
+            let sound = match &step.action {
+                Action::Move(trajectory) => trajectory.check(robot),
+                Action::MoveUntilContact { trajectory, force_n } => {
+                    trajectory.check(robot).and_then(|()| positive("force", *force_n))
+                }
+                Action::Grip(GripperCommand::Close { force_n }) => positive("force", *force_n),
+                Action::Grip(GripperCommand::Open { opening_m }) if *opening_m == 0.0 => Ok(()),
+                Action::Grip(GripperCommand::Open { opening_m }) => positive("opening", *opening_m),
+            };
+            sound.map_err(|cause| format!("step {i} ({}): {cause}", step.purpose))?;
+        }
+        Ok(())
+    }
+}
+
+fn positive(what: &str, number: f64) -> Result<(), String> {
+    let sound = number.is_finite() && number > 0.0;
+    if sound { Ok(()) } else { Err(format!("the {what} is {number}")) }
 }
 
 /// Key poses -> program.

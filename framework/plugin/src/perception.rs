@@ -20,6 +20,35 @@ pub struct CanonicalCloud {
 }
 
 impl CanonicalCloud {
+    /// Says what no perception may answer.
+    ///
+    /// # Errors
+    /// A sentence about lengths that differ, or a number that is not finite or out of its
+    /// range.
+    pub fn check(&self) -> Result<(), String> {
+        let n = self.points.len();
+        let (nocs, confidence) = (self.nocs.len(), self.confidence.len());
+        if (nocs, confidence) != (n, n) {
+            return Err(format!("{n} points, {nocs} canonical ones and {confidence} confidences"));
+        }
+        let features = self.features.len();
+        if n.checked_mul(self.feature_width) != Some(features) {
+            let width = self.feature_width;
+            return Err(format!("{n} points of {width} features each have {features}"));
+        }
+        let finite = |p: &Point3<f64>| p.coords.iter().all(|v| v.is_finite());
+        if let Some(i) = (0..n).find(|i| !finite(&self.points[*i]) || !finite(&self.nocs[*i])) {
+            return Err(format!("point {i} is not finite"));
+        }
+        if !self.confidence.iter().flatten().all(|c| (0.0..=1.0).contains(c)) {
+            return Err("a confidence is not between 0 and 1".into());
+        }
+        if !self.features.iter().all(|v| v.is_finite()) {
+            return Err("a feature is not finite".into());
+        }
+        Ok(())
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.points.len()

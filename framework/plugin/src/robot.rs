@@ -26,6 +26,25 @@ pub struct RobotState {
     pub opening_m: f64,
 }
 
+impl RobotState {
+    /// Says what no robot of so many `joints`, where that is known, may answer.
+    ///
+    /// # Errors
+    /// A sentence about another number of joints or a number that is not finite.
+    pub fn check(&self, joints: Option<usize>) -> Result<(), String> {
+        match joints {
+            Some(joints) if joints != self.joints.len() => {
+                return Err(format!("{} joints of a robot with {joints}", self.joints.len()));
+            }
+            _ => {}
+        }
+        if !self.joints.iter().chain([&self.opening_m]).all(|v| v.is_finite()) {
+            return Err(format!("the robot's state is not finite: {self:?}"));
+        }
+        Ok(())
+    }
+}
+
 /// One moment of an execution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotSample {
@@ -33,6 +52,19 @@ pub struct RobotSample {
     pub time_s: f64,
     /// Where the robot was.
     pub state: RobotState,
+}
+
+impl RobotSample {
+    /// Says what no robot of so many `joints`, where that is known, may show.
+    ///
+    /// # Errors
+    /// As [`RobotState::check`], and about a time that is not finite.
+    pub fn check(&self, joints: Option<usize>) -> Result<(), String> {
+        if !self.time_s.is_finite() {
+            return Err(format!("a sample's time is {} s", self.time_s));
+        }
+        self.state.check(joints)
+    }
 }
 
 /// What the robot felt in an action: the gripper's own grip state, and the load at the wrist.
@@ -46,6 +78,20 @@ pub struct Felt {
     /// for, or what was held has been pushed out of the hand.
     pub contact: bool,
 }
+
+impl Felt {
+    /// Says what no robot may answer.
+    ///
+    /// # Errors
+    /// A sentence about an opening that is none.
+    pub fn check(&self) -> Result<(), String> {
+        let sound = self.opening_m.is_finite();
+        if sound { Ok(()) } else { Err(format!("the fingers are {} m apart", self.opening_m)) }
+    }
+}
+
+/// Sees the robot on its way.
+pub type Watch<'a> = dyn FnMut(&RobotSample) + Send + 'a;
 
 /// A robot arm with a gripper.
 pub trait Robot: Send {
@@ -61,9 +107,5 @@ pub trait Robot: Send {
     /// # Errors
     /// When the first sample is not where the robot is, a sample breaks a limit, a number
     /// is not finite, or the robot stopped on the way.
-    fn execute(
-        &mut self,
-        action: &Action,
-        watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<Felt, PluginError>;
+    fn execute(&mut self, action: &Action, watch: &mut Watch) -> Result<Felt, PluginError>;
 }

@@ -1,27 +1,9 @@
-//! What a linked plugin is built from.
+//! What a plugin is built from.
 
-use crate::PluginError;
+use crate::{PluginError, World};
 use seeone_core::robot::RobotModel;
-use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
-
-/// An opaque handle by which the plugins of one simulated cell share their world. It is
-/// for linked plugins alone and never crosses the C ABI.
-#[derive(Clone)]
-pub struct WorldHandle(Arc<dyn Any + Send + Sync>);
-
-impl WorldHandle {
-    /// Wraps a shared world.
-    pub fn new<W: Send + Sync + 'static>(world: Arc<W>) -> Self {
-        Self(world)
-    }
-
-    /// The world, if it is a `W`.
-    pub fn get<W: Send + Sync + 'static>(&self) -> Option<Arc<W>> {
-        Arc::clone(&self.0).downcast().ok()
-    }
-}
 
 /// What a plugin is built from.
 #[derive(Clone)]
@@ -35,7 +17,7 @@ pub struct Setup<'a> {
     /// The robot of the cell, for the plugins that move or plan for it.
     pub robot: Option<&'a RobotModel>,
     /// The simulated world, when there is one.
-    pub world: Option<WorldHandle>,
+    pub world: Option<Arc<dyn World>>,
 }
 
 impl Setup<'_> {
@@ -63,9 +45,9 @@ impl Setup<'_> {
     /// The shared world that this plugin cannot do without.
     ///
     /// # Errors
-    /// [`PluginError::Configuration`] when the cell is not simulated by a `W`.
-    pub fn world<W: Send + Sync + 'static>(&self) -> Result<Arc<W>, PluginError> {
-        self.world.as_ref().and_then(WorldHandle::get).ok_or_else(|| {
+    /// [`PluginError::Configuration`] when the cell is not simulated.
+    pub fn world(&self) -> Result<Arc<dyn World>, PluginError> {
+        self.world.clone().ok_or_else(|| {
             PluginError::Configuration("this plugin works in the simulated cell only".into())
         })
     }

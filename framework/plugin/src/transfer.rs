@@ -80,6 +80,27 @@ pub struct Candidate {
     pub origin: String,
 }
 
+/// Says what no transfer may answer.
+///
+/// # Errors
+/// A sentence about an empty list, or a candidate with a number that is not finite or out of
+/// its range, or without an origin.
+pub fn check_candidates(candidates: &[Candidate]) -> Result<(), String> {
+    if candidates.is_empty() {
+        return Err("there is no candidate".into());
+    }
+    let sound = |candidate: &Candidate| {
+        candidate.pose.to_homogeneous().iter().all(|v| v.is_finite())
+            && candidate.loss.is_finite()
+            && (0.0..=1.0).contains(&candidate.confidence)
+            && !candidate.origin.is_empty()
+    };
+    match candidates.iter().find(|candidate| !sound(candidate)) {
+        None => Ok(()),
+        Some(candidate) => Err(format!("a candidate is out of its range: {candidate:?}")),
+    }
+}
+
 /// Demonstrated H -> ranked H' (method: Eq. 8 and 9).
 pub trait Transfer: Send {
     /// Candidates, best first; never empty.

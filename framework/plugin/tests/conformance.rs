@@ -2,9 +2,11 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion};
 use seeone_core::Similarity;
+use seeone_core::robot::RobotModel;
+use seeone_plugin::conformance::Descent;
 use seeone_plugin::{
-    Alignment, AlignmentOutcome, Candidate, Correspondences, PluginError, Transfer, TransferTask,
-    conformance,
+    Alignment, AlignmentOutcome, Candidate, Correspondences, IkOutcome, IkQuery, IkStatus,
+    Kinematics, PluginError, Transfer, TransferTask, conformance,
 };
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -26,8 +28,14 @@ impl Faulty {
     }
 }
 
+/// Three of the points, far apart where there are many.
+fn corners(points: &[Point3<f64>]) -> [Point3<f64>; 3] {
+    let n = points.len();
+    [points[0], points[(n / 4).max(1)], points[(n / 2).max(2)]]
+}
+
 fn frame(points: &[Point3<f64>]) -> Isometry3<f64> {
-    let (a, b, c) = (points[0], points[20], points[40]);
+    let [a, b, c] = corners(points);
     Isometry3::from_parts(
         Translation3::from(a.coords),
         UnitQuaternion::face_towards(&(b - a), &(c - a)),
@@ -39,7 +47,10 @@ impl Alignment for Faulty {
         if self.0 != Fault::AnswersAnything || pairs.source.len() < 41 {
             pairs.check()?;
         }
-        let side = |p: &[Point3<f64>]| (p[20] - p[0]).norm();
+        let side = |p: &[Point3<f64>]| {
+            let [a, b, _] = corners(p);
+            (b - a).norm()
+        };
         let mut scale = side(pairs.target) / side(pairs.source);
         if self.0 != Fault::ForgetsFixedScale {
             scale = pairs.fixed_scale.unwrap_or(scale);
@@ -114,4 +125,30 @@ fn faulty_transfers_are_caught_by_the_rule_they_break() {
         assert_eq!(caught.rule, rule, "{caught}");
     }
     conformance::transfer(&Says(|task| task.check().map(|()| kept(task, 0.5)))).expect("conforms");
+}
+
+/// Kinematics that alter what the suite's own answer.
+struct Altered(fn(&mut IkOutcome));
+
+impl Kinematics for Altered {
+    fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError> {
+        let mut outcome = Descent::default().solve(robot, query)?;
+        (self.0)(&mut outcome);
+        Ok(outcome)
+    }
+}
+
+#[test]
+fn dishonest_kinematics_are_caught_by_the_rule_they_break() {
+    let cases: [(&str, fn(&mut IkOutcome)); 5] = [
+        ("what is near is reached", |o| o.status = IkStatus::Infeasible),
+        ("what is out of reach is infeasible, with a reason", |o| o.status = IkStatus::Solved),
+        ("finite in, finite and within the limits out", |o| o.joints[2] = 9.0),
+        ("the errors that are told are those of the joints", |o| o.position_error_m += 0.1),
+        ("what is out of reach is infeasible, with a reason", |o| o.reason = None),
+    ];
+    for (rule, alter) in cases {
+        let caught = conformance::kinematics(&Altered(alter)).expect_err(rule);
+        assert_eq!(caught.rule, rule, "{caught}");
+    }
 }

@@ -25,8 +25,8 @@ fn refusal(source: &str) -> String {
     let untrusted = Manifest::write_for(&path).expect_err("no plugin").to_string();
     let bytes = fs::read(&path).expect("there");
     let manifest = format!(
-        "schema = 1\nname = \"foreign\"\nkind = \"alignment\"\nversion = \"1\"\nabi = [1, 0]\n\
-         size_bytes = {}\nblake3 = \"{}\"\n",
+        "schema = 2\nabi_major = 2\nsize_bytes = {}\nblake3 = \"{}\"\n\
+         [[plugin]]\nname = \"foreign\"\nkind = \"alignment\"\nversion = \"1\"\n",
         bytes.len(),
         blake3::hash(&bytes)
     );
@@ -45,7 +45,7 @@ fn a_library_without_the_entry_is_told() {
 #[test]
 fn a_table_of_something_else_is_told() {
     let told = refusal(
-        "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin() -> *const u64 {
+        "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin(_: u32) -> *const u64 {
             static TABLE: [u64; 16] = [7; 16]; TABLE.as_ptr() }",
     );
     assert!(told.starts_with("error[L007]") && told.contains("does not begin"), "{told}");
@@ -54,7 +54,7 @@ fn a_table_of_something_else_is_told() {
 #[test]
 fn no_table_is_told() {
     let told = refusal(
-        "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin() -> *const u64 {
+        "#[unsafe(no_mangle)] pub extern \"C\" fn seeone_plugin(_: u32) -> *const u64 {
             std::ptr::null() }",
     );
     assert!(told.starts_with("error[L007]") && told.contains("no table"), "{told}");

@@ -7,10 +7,11 @@ use seeone_core::Diagnostic;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
     Alignment, Camera, Encoding, Judge, Kind, Kinematics, Motion, Perception, Robot, Setup,
-    Transfer, WorldHandle,
+    Transfer, World,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What the plugins of one cell are built from.
 pub struct Cell<'a> {
@@ -23,7 +24,7 @@ pub struct Cell<'a> {
     /// The robot.
     pub robot: &'a RobotModel,
     /// The simulated world, when there is one.
-    pub world: Option<WorldHandle>,
+    pub world: Option<Arc<dyn World>>,
 }
 
 /// The configuration that the files hold: the robot file's tables, and the camera's from

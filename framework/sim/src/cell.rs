@@ -1,7 +1,7 @@
 //! The simulated work cell: one object, a mat, a head, and the hand of whatever arm is
 //! plugged in. Robot and camera plugins share it; the verdict reads it.
 
-use crate::depth_camera::{Noise, capture};
+use crate::depth_camera::look;
 use crate::drop::Drop;
 use crate::hand::Hand;
 use crate::object::Object;
@@ -79,11 +79,16 @@ impl Cell {
         intrinsics: &Intrinsics,
         noise: &mut impl Rng,
     ) -> DepthImage {
+        look(&self.surfaces(), camera, intrinsics, noise)
+    }
+
+    /// The surfaces, in `world`, of what stands in the cell: the table, the object, the head,
+    /// the hook.
+    pub fn surfaces(&self) -> Vec<TriangleMesh> {
         let mut meshes = vec![scenery::table(), self.world.mesh()];
         meshes.extend(self.head_mesh());
         meshes.extend(self.hook_mesh());
-        let meshes: Vec<&TriangleMesh> = meshes.iter().collect();
-        capture(&meshes, camera, intrinsics, &Noise::default(), noise).image
+        meshes
     }
 
     /// The head's surface in `world`, when there is one.

@@ -65,6 +65,17 @@ pub struct Capture {
     pub truth: Raster,
 }
 
+/// A depth image from the pose `camera` with the usual noise, without its ground truth.
+pub fn look(
+    surfaces: &[TriangleMesh],
+    camera: &Pose,
+    intrinsics: &Intrinsics,
+    noise: &mut impl Rng,
+) -> DepthImage {
+    let surfaces: Vec<&TriangleMesh> = surfaces.iter().collect();
+    capture(&surfaces, camera, intrinsics, &Noise::default(), noise).image
+}
+
 /// Takes a picture of `meshes` (in `world`) from the pose `camera`.
 pub fn capture(
     meshes: &[&TriangleMesh],

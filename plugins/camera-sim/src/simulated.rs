@@ -5,14 +5,14 @@ use nalgebra::Point3;
 use rand::Rng;
 use seeone_core::random::{Generator, generator};
 use seeone_core::{Intrinsics, Pose};
-use seeone_plugin::{Camera, Observation, PluginError, Setup};
-use seeone_sim::cell::Cell;
+use seeone_plugin::{Camera, Observation, PluginError, Setup, World};
+use seeone_sim::depth_camera::look;
 use seeone_sim::segmentation::DropZone;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// A depth camera in the simulated cell.
 pub struct SimulatedCamera {
-    cell: Arc<Mutex<Cell>>,
+    world: Arc<dyn World>,
     pose: Pose,
     intrinsics: Intrinsics,
     zone: DropZone,
@@ -36,7 +36,7 @@ impl SimulatedCamera {
             height_m: crop.height_m,
         };
         Ok(Self {
-            cell: setup.world::<Mutex<Cell>>()?,
+            world: setup.world()?,
             pose,
             intrinsics: configuration.intrinsics,
             zone,
@@ -45,11 +45,8 @@ impl SimulatedCamera {
     }
 
     fn look(&mut self, noise: &mut impl Rng) -> Result<Observation, PluginError> {
-        let cell = self
-            .cell
-            .lock()
-            .map_err(|_| PluginError::Internal("the simulated cell broke down".into()))?;
-        let depth = cell.depth_image(&self.pose, &self.intrinsics, noise);
+        let surfaces = self.world.surfaces()?;
+        let depth = look(&surfaces, &self.pose, &self.intrinsics, noise);
         let cloud = self.zone.cloud(&depth, &self.pose);
         let camera_position = Point3::from(self.pose.translation.vector);
         Ok(Observation { depth: Some(depth), cloud, camera_position })

@@ -109,7 +109,7 @@ impl Planning {
         kinematics: &dyn Kinematics,
         task: &MotionTask,
     ) -> Result<MotionOutcome, PluginError> {
-        check(robot, task)?;
+        task.check(robot)?;
         let (config, seed, style) = (&self.config, self.seed, self.style);
         let key_poses = of_the_closed_hand(robot, task);
         let task = &MotionTask { key_poses: &key_poses, ..*task };
@@ -139,35 +139,4 @@ fn of_the_closed_hand(robot: &RobotModel, task: &MotionTask) -> Vec<KeyPose> {
         KeyPose { pose: key.pose * shift, ..key.clone() }
     };
     task.key_poses.iter().map(shifted).collect()
-}
-
-/// # Errors
-/// [`PluginError::Input`] for a task that cannot be worked on.
-fn check(robot: &RobotModel, task: &MotionTask) -> Result<(), PluginError> {
-    let told = |cause: String| Err(PluginError::Input(cause));
-    if !robot.within_limits(task.start) {
-        return told("the start must have one position within the limits for each joint".into());
-    }
-    for key in task.key_poses {
-        let lengths = [key.approach_m, key.retreat_m, key.lift_m, key.opening_m];
-        if !key.pose.to_homogeneous().iter().all(|v| v.is_finite()) {
-            return told(format!("stage \"{}\": the pose is not finite", key.stage));
-        }
-        if !lengths.iter().all(|v| v.is_finite() && *v >= 0.0) {
-            return told(format!("stage \"{}\": a length is negative or not finite", key.stage));
-        }
-        if key.until_contact_n.is_some_and(|force| !(force.is_finite() && force > 0.0)) {
-            return told(format!("stage \"{}\": the force of contact is no force", key.stage));
-        }
-        let commanded = match key.gripper {
-            Some(GripperCommand::Open { opening_m }) => opening_m,
-            Some(GripperCommand::Close { .. }) | None => 0.0,
-        };
-        let stroke = robot.gripper().stroke_m();
-        if !commanded.is_finite() || key.opening_m.max(commanded) > stroke {
-            let stage = &key.stage;
-            return told(format!("stage \"{stage}\": the gripper opens by {stroke} m at most"));
-        }
-    }
-    Ok(())
 }

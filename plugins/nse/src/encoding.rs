@@ -99,6 +99,7 @@ pub(crate) fn requirements(perception: &Card) -> std::collections::BTreeMap<Stri
 
 impl Encoding for Nse {
     fn encode(&mut self, cloud: &CanonicalCloud) -> Result<Box<dyn Field>, PluginError> {
+        cloud.check().map_err(NseError::Cloud)?;
         Ok(Box::new(self.encode_input(&Input::new(cloud)?)?))
     }
 }

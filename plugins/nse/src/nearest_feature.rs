@@ -23,12 +23,7 @@ impl Encoding for NearestFeature {
         if cloud.is_empty() || width == 0 {
             return refuse("it has no points or no features");
         }
-        if cloud.nocs.len() != cloud.len()
-            || cloud.confidence.len() != cloud.len()
-            || cloud.features.len() != cloud.len() * width
-        {
-            return refuse("its tables differ in length");
-        }
+        cloud.check().map_err(NseError::Cloud)?;
         let points = cloud.nocs.iter().copied().zip(cloud.weights()).collect();
         Ok(Box::new(NearestField { points, features: cloud.features.clone(), width }))
     }

@@ -76,7 +76,7 @@ impl<S: Step> Descents<S> {
     }
 
     fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError> {
-        check(robot, query)?;
+        query.check(robot)?;
         let mut workspace = self.take(robot.joints().len(), query.clearance.is_some());
         let mut search = Search::new(robot, query, &self.config);
         self.search(&mut workspace, &mut search);
@@ -197,32 +197,5 @@ impl<'a> Search<'a> {
             }
             (None, None) => unreachable!("a search has at least one start"),
         }
-    }
-}
-
-/// # Errors
-/// [`PluginError::Input`] for what no posture can be sought for or from.
-fn check(robot: &RobotModel, query: &IkQuery) -> Result<(), PluginError> {
-    let told = |cause: String| Err(PluginError::Input(cause));
-    if !query.target.to_homogeneous().iter().all(|v| v.is_finite()) {
-        return told("the target pose is not finite".into());
-    }
-    if query.period_s.is_some_and(|period| !(period.is_finite() && period > 0.0)) {
-        return told("the period is no time".into());
-    }
-    let (given, wanted) = (query.near.len(), robot.joints().len());
-    if given != wanted {
-        return told(format!("the start has {given} positions, the arm {wanted} joints"));
-    }
-    let mut joints = robot.joints().iter().zip(query.near);
-    match joints.find(|(joint, q)| !joint.allows(**q)) {
-        None => Ok(()),
-        Some((joint, q)) if q.is_finite() => told(format!(
-            "the start: {} at {q:.4} rad is outside {:.4}..{:.4}",
-            joint.name(),
-            joint.lower(),
-            joint.upper()
-        )),
-        Some((joint, _)) => told(format!("the start: {} is not finite", joint.name())),
     }
 }

@@ -10,12 +10,12 @@ use nalgebra::DVector;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
     Action, Felt, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample, RobotState,
-    Setup,
+    Setup, Watch, World,
 };
-use seeone_sim::cell::{Cell, FRAME_S};
+use seeone_sim::cell::FRAME_S;
 use serde::Deserialize;
 use servo::Servo;
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::Arc;
 
 /// The first command may be this far from where the joints are, radians.
 const START_TOLERANCE_RAD: f64 = 0.02;
@@ -42,7 +42,7 @@ impl Default for Configuration {
 
 /// A simulated arm with a gripper.
 pub struct SimulatedArm {
-    cell: Arc<Mutex<Cell>>,
+    world: Arc<dyn World>,
     model: RobotModel,
     servo: Servo,
     joints: Vec<f64>,
@@ -75,14 +75,10 @@ impl SimulatedArm {
     fn with_servo(setup: &Setup, servo: Servo) -> Result<Self, PluginError> {
         let model = setup.robot()?.clone();
         let joints = model.home().to_vec();
-        let arm = Self { cell: setup.world::<Mutex<Cell>>()?, model, servo, joints };
+        let arm = Self { world: setup.world()?, model, servo, joints };
         let pose = arm.model.tool_pose(&arm.joints);
-        arm.lock()?.place_hand(&pose);
+        arm.world.place_hand(&pose)?;
         Ok(arm)
-    }
-
-    fn lock(&self) -> Result<MutexGuard<'_, Cell>, PluginError> {
-        self.cell.lock().map_err(|_| PluginError::Internal("the simulated cell broke down".into()))
     }
 
     fn check(&self, trajectory: &JointTrajectory) -> Result<(), PluginError> {
@@ -126,7 +122,7 @@ impl SimulatedArm {
         &mut self,
         trajectory: &JointTrajectory,
         contact_n: Option<f64>,
-        watch: &mut dyn FnMut(&RobotSample),
+        watch: &mut Watch,
     ) -> Result<bool, PluginError> {
         self.check(trajectory)?;
         if let Some(force_n) = contact_n
@@ -134,22 +130,21 @@ impl SimulatedArm {
         {
             return Err(PluginError::Input(format!("contact with {force_n} N is none")));
         }
-        if contact_n.is_some() && !self.lock()?.pads_feel_load() {
+        let before = self.world.state()?;
+        if contact_n.is_some() && !before.pads_feel_load {
             let cause = "the simulated wrist feels only the load of what is held";
             return Err(PluginError::Input(cause.into()));
         }
-        let before = self.lock()?.load_n();
         let frames = (trajectory.duration_s() / FRAME_S).ceil() as usize + self.servo.tail_frames();
         for frame in 1..=frames {
             let Some(command) = trajectory.at(frame as f64 * FRAME_S) else { break };
             self.servo.track(&mut self.joints, &command);
             let pose = self.model.tool_pose(&self.joints);
-            let (change, holding) = {
-                let mut cell = self.lock()?;
-                cell.advance(&pose).map_err(PluginError::Internal)?;
-                ((cell.load_n() - before).norm(), cell.pads_feel_load())
-            };
-            let contact = contact_n.is_some_and(|force_n| change > force_n || !holding);
+            self.world.advance(&pose)?;
+            let now = self.world.state()?;
+            let change = (now.load_n - before.load_n).norm();
+            let slipped = !now.pads_feel_load;
+            let contact = contact_n.is_some_and(|force_n| change > force_n || slipped);
             if frame % FRAMES_PER_SAMPLE == 0 || frame == frames || contact {
                 watch(&self.sample()?);
             }
@@ -160,27 +155,20 @@ impl SimulatedArm {
         Ok(false)
     }
 
-    fn grip(
-        &mut self,
-        command: GripperCommand,
-        watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<(), PluginError> {
+    fn grip(&mut self, command: GripperCommand, watch: &mut Watch) -> Result<(), PluginError> {
         match command {
             GripperCommand::Close { force_n } if force_n.is_finite() && force_n > 0.0 => {
-                self.lock()?.close(force_n);
+                self.world.close_fingers(force_n)?;
             }
             GripperCommand::Open { opening_m } if opening_m.is_finite() && opening_m >= 0.0 => {
-                self.lock()?.open(opening_m);
+                self.world.open_fingers(opening_m)?;
             }
             other => return Err(PluginError::Input(format!("{other:?} is no command to grip"))),
         }
         let pose = self.model.tool_pose(&self.joints);
         for frame in 0..(GRIP_LIMIT_S / FRAME_S) as usize {
-            let moving = {
-                let mut cell = self.lock()?;
-                cell.advance(&pose).map_err(PluginError::Internal)?;
-                cell.fingers_move()
-            };
+            self.world.advance(&pose)?;
+            let moving = self.world.state()?.fingers_move;
             if frame % FRAMES_PER_SAMPLE == 0 {
                 watch(&self.sample()?);
             }
@@ -192,9 +180,9 @@ impl SimulatedArm {
     }
 
     fn sample(&self) -> Result<RobotSample, PluginError> {
-        let cell = self.lock()?;
-        let state = RobotState { joints: self.joints.clone(), opening_m: cell.opening_m() };
-        Ok(RobotSample { time_s: cell.time_s(), state })
+        let now = self.world.state()?;
+        let state = RobotState { joints: self.joints.clone(), opening_m: now.opening_m };
+        Ok(RobotSample { time_s: now.time_s, state })
     }
 }
 
@@ -203,11 +191,7 @@ impl Robot for SimulatedArm {
         Ok(self.sample()?.state)
     }
 
-    fn execute(
-        &mut self,
-        action: &Action,
-        watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<Felt, PluginError> {
+    fn execute(&mut self, action: &Action, watch: &mut Watch) -> Result<Felt, PluginError> {
         let contact = match action {
             Action::Move(trajectory) => self.follow(trajectory, None, watch)?,
             Action::MoveUntilContact { trajectory, force_n } => {
@@ -218,8 +202,7 @@ impl Robot for SimulatedArm {
                 false
             }
         };
-        let cell = self.lock()?;
-        let (opening_m, holding) = (cell.opening_m(), cell.pads_feel_load());
-        Ok(Felt { opening_m, holding, contact })
+        let now = self.world.state()?;
+        Ok(Felt { opening_m: now.opening_m, holding: now.pads_feel_load, contact })
     }
 }

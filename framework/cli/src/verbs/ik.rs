@@ -48,7 +48,8 @@ struct PathAnswer<'a> {
 /// # Errors
 /// Every fault of the files, an unknown plugin, or a file that cannot be written.
 pub fn run(args: &IkArgs) -> Result<Ending> {
-    let registry = builtin::registry();
+    let mut registry = builtin::registry();
+    builtin::load(&mut registry, &args.libraries)?;
     let known = registry.known();
     let file = RobotFile::read(&args.robot, &known).map_err(Faults)?;
     let robot = model(&file, args.frame)?;

@@ -71,7 +71,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         root: Path::new("."),
         seed: args.seed,
         robot: Some(&robot),
-        world: Some(cell.handle()),
+        world: Some(cell.world()),
     };
     let mut camera = registry.camera.build("camera-sim", &setup(Kind::Camera))?;
     let kinematics = registry.kinematics.build("qp-ik", &setup(Kind::Kinematics))?;

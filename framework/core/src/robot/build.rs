@@ -27,6 +27,15 @@ pub struct RobotOptions {
     pub gripper: GripperOptions,
 }
 
+/// All that a robot model is made of, without any file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotDescription {
+    /// The URDF as it was written.
+    pub urdf: String,
+    /// What it does not say.
+    pub options: RobotOptions,
+}
+
 impl Default for RobotOptions {
     /// At the world's origin, tool link `tcp`, 10 rad/s^2 and 100 rad/s^3 (robot descriptions
     /// give neither; a six-axis arm is driven gently so, and reaches its largest acceleration
@@ -54,7 +63,19 @@ impl RobotModel {
     /// `R007` limits or speed, `R008` axis, `R010` tool link, `R011` joint type, `R012`
     /// geometry, `R013` home, `R014` gripper, `R015` another option, `R016` a pair of bodies.
     pub fn from_urdf(file: &Path, options: &RobotOptions) -> Result<Self, Diagnostic> {
-        let tree = Tree::read(file)?;
+        Self::from_tree(&Tree::read(file)?, options)
+    }
+
+    /// Reads the robot that [`RobotModel::description`] gave: the same to the bit.
+    ///
+    /// # Errors
+    /// As [`RobotModel::from_urdf`], for the file `robot.urdf`.
+    pub fn from_description(description: &RobotDescription) -> Result<Self, Diagnostic> {
+        let tree = Tree::parse(Path::new("robot.urdf"), description.urdf.clone())?;
+        Self::from_tree(&tree, &description.options)
+    }
+
+    fn from_tree(tree: &Tree, options: &RobotOptions) -> Result<Self, Diagnostic> {
         for (what, limit) in [("acceleration", options.acceleration), ("jerk", options.jerk)] {
             if !(limit.is_finite() && limit > 0.0) {
                 return Err(tree.fault("R015", format!("the {what} limit must be positive")));
@@ -70,12 +91,12 @@ impl RobotModel {
         if !options.base.to_homogeneous().iter().all(|v| v.is_finite()) {
             return Err(tree.fault("R015", "the base pose must be finite".into()));
         }
-        let (joints, tool) = chain(&tree, &options.tool_link)?;
+        let (joints, tool) = chain(tree, &options.tool_link)?;
         let mut parts =
             Parts { links: vec![Link::default(); joints.len() + 1], ..Parts::default() };
         let arm: Vec<&str> = joints.iter().map(Joint::name).collect();
-        parts.collect(&tree, tree.root(), Place::Arm(0), Pose::identity(), &arm)?;
-        let gripper = gripper(&tree, &mut parts, &options.gripper, &tool, &arm)?;
+        parts.collect(tree, tree.root(), Place::Arm(0), Pose::identity(), &arm)?;
+        let gripper = gripper(tree, &mut parts, &options.gripper, &tool, &arm)?;
         let mut robot = Self {
             name: tree.name().to_owned(),
             base: options.base,
@@ -87,6 +108,8 @@ impl RobotModel {
             jerk: options.jerk,
             unchecked_pairs: options.unchecked_pairs.clone(),
             gripper,
+            urdf: tree.text().into(),
+            tool_link: options.tool_link.clone(),
         };
         if let Some(home) = &options.home {
             robot.check_home(home).map_err(|cause| tree.fault("R013", cause))?;

@@ -59,6 +59,11 @@ impl GripperModel {
         self.stroke_m
     }
 
+    /// What it was made with beside the URDF.
+    pub fn options(&self) -> &GripperOptions {
+        &self.options
+    }
+
     /// Smallest and largest grip force, newtons.
     pub fn force_range_n(&self) -> [f64; 2] {
         self.options.force_n

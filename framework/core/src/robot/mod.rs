@@ -15,7 +15,7 @@ mod urdf;
 #[cfg(test)]
 mod tests;
 
-pub use build::RobotOptions;
+pub use build::{RobotDescription, RobotOptions};
 pub use gripper::{Finger, GripperModel, GripperOptions};
 pub use joint::Joint;
 pub use model::{Link, RobotModel};

@@ -1,8 +1,9 @@
 //! The checked robot and its kinematics.
 
-use super::{GripperModel, Joint, Solid, tessellate::tessellate};
+use super::{GripperModel, Joint, RobotDescription, RobotOptions, Solid, tessellate::tessellate};
 use crate::{Pose, TriangleMesh};
 use nalgebra::{Matrix6xX, Translation3, Vector3};
+use std::sync::Arc;
 
 /// One rigid part of the arm: the base, or what is behind a joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,6 +28,9 @@ pub struct RobotModel {
     pub(super) jerk: f64,
     pub(super) unchecked_pairs: Vec<[String; 2]>,
     pub(super) gripper: GripperModel,
+    /// The text that it was read from, shared by its copies.
+    pub(super) urdf: Arc<str>,
+    pub(super) tool_link: String,
 }
 
 impl RobotModel {
@@ -81,6 +85,22 @@ impl RobotModel {
     /// Pairs of URDF links that always touch or never can, so that nobody needs to check them.
     pub fn unchecked_pairs(&self) -> &[[String; 2]] {
         &self.unchecked_pairs
+    }
+
+    /// What it was made of, for whoever has to make the same model elsewhere.
+    pub fn description(&self) -> RobotDescription {
+        RobotDescription {
+            urdf: self.urdf.to_string(),
+            options: RobotOptions {
+                base: self.base,
+                tool_link: self.tool_link.clone(),
+                home: Some(self.home.clone()),
+                acceleration: self.acceleration,
+                jerk: self.jerk,
+                unchecked_pairs: self.unchecked_pairs.clone(),
+                gripper: self.gripper.options().clone(),
+            },
+        }
     }
 
     /// The gripper.

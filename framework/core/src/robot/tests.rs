@@ -16,6 +16,20 @@ fn ur5() -> RobotModel {
     RobotModel::from_urdf(&ur5_file(), &RobotOptions::default()).unwrap()
 }
 
+#[test]
+fn a_description_makes_the_same_robot_to_the_bit() {
+    let options = RobotOptions {
+        base: Pose::new(Vector3::new(0.1, 0.2, 0.3), Vector3::new(0.4, 0.5, 0.6)),
+        home: Some(vec![0.1, -1.3, 1.1, 0.3, 0.2, 0.1]),
+        jerk: 33.3,
+        ..RobotOptions::default()
+    };
+    let robot = RobotModel::from_urdf(&ur5_file(), &options).unwrap();
+    assert_eq!(RobotModel::from_description(&robot.description()).unwrap(), robot);
+    let damaged = RobotDescription { urdf: "<robot".into(), ..robot.description() };
+    assert_eq!(RobotModel::from_description(&damaged).unwrap_err().code, "R002");
+}
+
 /// The published table of the CB3 manual: a, d, alpha.
 const DH: [(f64, f64, f64); 6] = [
     (0.0, 0.089159, FRAC_PI_2),

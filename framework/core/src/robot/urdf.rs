@@ -12,6 +12,7 @@ use urdf_rs::{Geometry, Joint, Link, Robot};
 /// hangs on exactly one joint, and every number is finite.
 pub(super) struct Tree {
     file: PathBuf,
+    text: String,
     robot: Robot,
     root: String,
 }
@@ -25,14 +26,27 @@ impl Tree {
     pub(super) fn read(file: &Path) -> Result<Self, Diagnostic> {
         let text = fs::read_to_string(file)
             .map_err(|e| Diagnostic::new("R001", format!("cannot be read: {e}")).in_file(file))?;
+        Self::parse(file, text)
+    }
+
+    /// Checks the text of a file.
+    ///
+    /// # Errors
+    /// As [`Tree::read`], but for `R001`.
+    pub(super) fn parse(file: &Path, text: String) -> Result<Self, Diagnostic> {
         let robot = urdf_rs::read_from_string(&text)
             .map_err(|e| Diagnostic::new("R002", format!("is no URDF: {e}")).in_file(file))?;
         unique("link", robot.links.iter().map(|l| &l.name))
             .and_then(|()| unique("joint", robot.joints.iter().map(|j| &j.name)))
             .and_then(|()| finite(&robot))
             .and_then(|()| root(&robot))
-            .map(|root| Self { file: file.to_owned(), robot, root })
+            .map(|root| Self { file: file.to_owned(), text, robot, root })
             .map_err(|fault| fault.in_file(file))
+    }
+
+    /// The URDF as it was written.
+    pub(super) fn text(&self) -> &str {
+        &self.text
     }
 
     pub(super) fn name(&self) -> &str {

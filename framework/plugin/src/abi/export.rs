@@ -1,78 +1,115 @@
-//! The library's side: a Rust plugin behind a table.
+//! The library's side: Rust plugins behind tables.
 
+use super::callee::{Callee, Foreign, guarded, missing, serve};
+use super::cells::Reader;
+use super::kinds::{Remote, SetupMessage, served};
 use super::message::Message;
+use super::methods::Method;
 use super::table::{
-    ABI_MAJOR, ABI_MINOR, AlignmentTable, Header, MAGIC, OutcomeRecord, PairsRecord, SetupRecord,
-    Span, Status, kind_code,
+    ABI_MAJOR, ABI_MINOR, Answer, Header, MAGIC, Service, Span, Status, Table, kind_code,
 };
-use crate::{Alignment, Correspondences, Kind, PluginError, Setup};
-use nalgebra::Point3;
-use std::any::Any;
+use crate::{
+    Alignment, Camera, Encoding, Kind, Kinematics, Motion, Perception, PluginError, Robot, Setup,
+    Transfer, World,
+};
+use seeone_core::robot::RobotModel;
 use std::ffi::c_void;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::catch_unwind;
 use std::path::Path;
+use std::sync::Arc;
 
-/// Makes a dynamic library (`crate-type = ["cdylib"]`) of an alignment:
-/// `export_alignment!("name", constructor)`, where the constructor is a
-/// `fn(&Setup) -> Result<impl Alignment, PluginError>`. Once a library.
+/// Makes a dynamic library (`crate-type = ["cdylib"]`) of plugins, once a library:
+///
+/// ```ignore
+/// seeone_plugin::export_plugins! {
+///     Transfer "snap" => my_crate::Snap::from_setup,
+///     Transfer "unchanged" => my_crate::Unchanged::from_setup,
+/// }
+/// ```
+///
+/// Each constructor is a `fn(&Setup) -> Result<impl KIND, PluginError>`.
 #[macro_export]
-macro_rules! export_alignment {
-    ($name:literal, $construct:path) => {
-        struct Exported;
-
-        impl $crate::abi::export::ExportedAlignment for Exported {
-            const NAME: &'static str = $name;
-            const VERSION: &'static str = env!("CARGO_PKG_VERSION");
-
-            fn construct(
-                setup: &$crate::Setup,
-            ) -> Result<Box<dyn $crate::Alignment>, $crate::PluginError> {
-                Ok(Box::new($construct(setup)?))
-            }
-        }
-
-        /// Returns the library's table.
+macro_rules! export_plugins {
+    ($($kind:ident $name:literal => $construct:path),+ $(,)?) => {
+        /// Returns the library's table of this index; null beyond the last.
         #[unsafe(no_mangle)]
-        pub extern "C" fn seeone_plugin() -> *const $crate::abi::table::Header {
-            static TABLE: $crate::abi::table::AlignmentTable =
-                $crate::abi::export::alignment_table::<Exported>();
+        pub extern "C" fn seeone_plugin(index: u32) -> *const $crate::abi::table::Header {
+            static TABLES: &[$crate::abi::table::Table] = &[$({
+                struct Exported;
+
+                impl $crate::abi::export::Exported for Exported {
+                    const KIND: $crate::Kind = $crate::Kind::$kind;
+                    const NAME: &'static str = $name;
+                    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+
+                    fn construct(
+                        setup: &$crate::Setup,
+                    ) -> Result<$crate::abi::export::Plugin, $crate::PluginError> {
+                        let plugin = Box::new($construct(setup)?);
+                        Ok($crate::abi::export::Plugin::$kind(plugin))
+                    }
+                }
+
+                $crate::abi::export::table::<Exported>()
+            }),+];
             $crate::abi::export::silence_panics();
-            &raw const TABLE.header
+            TABLES.get(index as usize).map_or(std::ptr::null(), |table| &raw const table.header)
         }
     };
 }
 
-/// What [`export_alignment!`](crate::export_alignment) makes a table of.
-pub trait ExportedAlignment: 'static {
+/// A plugin of any kind.
+pub enum Plugin {
+    /// Kind `alignment`.
+    Alignment(Box<dyn Alignment>),
+    /// Kind `camera`.
+    Camera(Box<dyn Camera>),
+    /// Kind `perception`.
+    Perception(Box<dyn Perception>),
+    /// Kind `encoding`.
+    Encoding(Box<dyn Encoding>),
+    /// Kind `transfer`.
+    Transfer(Box<dyn Transfer>),
+    /// Kind `kinematics`.
+    Kinematics(Box<dyn Kinematics>),
+    /// Kind `motion`.
+    Motion(Box<dyn Motion>),
+    /// Kind `robot`.
+    Robot(Box<dyn Robot>),
+}
+
+/// What [`export_plugins!`](crate::export_plugins) makes a table of.
+pub trait Exported: 'static {
+    /// The plugin's kind.
+    const KIND: Kind;
     /// The plugin's name.
     const NAME: &'static str;
     /// The plugin's version.
     const VERSION: &'static str;
 
-    /// Builds the plugin.
+    /// Builds the plugin, of this kind.
     ///
     /// # Errors
     /// What the plugin's own constructor refuses.
-    fn construct(setup: &Setup) -> Result<Box<dyn Alignment>, PluginError>;
+    fn construct(setup: &Setup) -> Result<Plugin, PluginError>;
 }
 
 /// The table of `E`.
-pub const fn alignment_table<E: ExportedAlignment>() -> AlignmentTable {
-    let Some(kind) = kind_code(Kind::Alignment) else { panic!("alignments have a code") };
-    AlignmentTable {
+pub const fn table<E: Exported>() -> Table {
+    Table {
         header: Header {
             magic: MAGIC,
             abi_major: ABI_MAJOR,
             abi_minor: ABI_MINOR,
-            size: size_of::<AlignmentTable>() as u64,
-            kind,
+            size: size_of::<Table>() as u64,
+            kind: kind_code(E::KIND),
             reserved: 0,
             name: Span::of(E::NAME.as_bytes()),
             version: Span::of(E::VERSION.as_bytes()),
             build_id: Span::of(concat!("seeone-plugin ", env!("CARGO_PKG_VERSION")).as_bytes()),
         },
         create: Some(create::<E>),
-        align: Some(align),
+        call: Some(call),
         release: Some(release),
     }
 }
@@ -84,69 +121,104 @@ pub fn silence_panics() {
     ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));
 }
 
-/// The plugin behind an instance pointer; boxed twice to make the pointer thin.
-type Instance = Box<dyn Alignment>;
+/// A plugin behind an instance pointer.
+struct Instance {
+    plugin: Living,
+    /// The robot of its setup.
+    robot: Option<Arc<RobotModel>>,
+}
 
-unsafe extern "C" fn create<E: ExportedAlignment>(
-    setup: *const SetupRecord,
+/// A plugin with what it has made.
+enum Living {
+    Encoding(served::Encoding),
+    Other(Plugin),
+}
+
+impl Instance {
+    fn answer(
+        &mut self,
+        method: Method,
+        request: &[u64],
+        lent: &[Foreign],
+    ) -> Result<Vec<u64>, PluginError> {
+        let robot = self.robot.as_ref();
+        let plugin = match &mut self.plugin {
+            Living::Encoding(fields) => return fields.served(method, request),
+            Living::Other(plugin) => plugin,
+        };
+        match plugin {
+            Plugin::Alignment(plugin) => served::alignment(plugin.as_ref(), method, request),
+            Plugin::Camera(plugin) => served::camera(plugin.as_mut(), method, request),
+            Plugin::Perception(plugin) => served::perception(plugin.as_mut(), method, request),
+            Plugin::Encoding(_) => Err(missing()),
+            Plugin::Transfer(plugin) => served::transfer(plugin.as_ref(), method, request, lent),
+            Plugin::Kinematics(plugin) => {
+                let lent: Vec<&dyn Callee> = lent.iter().map(|one| one as &dyn Callee).collect();
+                served::kinematics(plugin.as_ref(), robot, method, request, &lent)
+            }
+            Plugin::Motion(plugin) => served::motion(plugin.as_ref(), robot, method, request, lent),
+            Plugin::Robot(plugin) => served::robot(plugin.as_mut(), method, request, lent),
+        }
+    }
+}
+
+unsafe extern "C" fn create<E: Exported>(
+    setup: Span<u64>,
+    world: Service,
     instance: *mut *mut c_void,
     message: *mut Message,
 ) -> Status {
     guarded(message, || {
-        // SAFETY: the host lends a valid record for the call.
-        let setup = unsafe { setup.as_ref() }.ok_or_else(missing)?;
-        // SAFETY: as above, and its spans with it.
-        let (config, root) = unsafe { (text(setup.config)?, text(setup.root)?) };
+        // SAFETY: the host lends valid cells for the call.
+        let setup = unsafe { setup.slice() }.ok_or_else(missing)?;
+        let SetupMessage { config, root, seed, robot } = Reader::whole(setup)?;
         let config = config
             .parse::<toml::Table>()
             .map_err(|e| PluginError::Configuration(e.message().to_owned()))?;
-        let setup = Setup {
-            config: &config,
-            root: Path::new(root),
-            seed: setup.seed,
-            world: None,
-            robot: None,
-        };
+        // SAFETY: the host lends the world until the plugin is released; a plugin drops what it
+        // was built from by then.
+        let world = unsafe { Foreign::new(world) }
+            .map(|world| Arc::new(Remote::new(world, None)) as Arc<dyn World>);
+        let robot = robot.map(Arc::new);
         if instance.is_null() {
             return Err(missing());
         }
-        let plugin: Box<Instance> = Box::new(E::construct(&setup)?);
+        let plugin = E::construct(&Setup {
+            config: &config,
+            root: Path::new(&root),
+            seed,
+            robot: robot.as_deref(),
+            world,
+        })?;
+        let plugin = match plugin {
+            Plugin::Encoding(encoding) => Living::Encoding(served::Encoding::new(encoding)),
+            other => Living::Other(other),
+        };
+        let built = Box::new(Instance { plugin, robot });
         // SAFETY: the host lends a place for one pointer; it is not null.
-        unsafe { instance.write(Box::into_raw(plugin).cast()) };
+        unsafe { instance.write(Box::into_raw(built).cast()) };
         Ok(())
     })
 }
 
-unsafe extern "C" fn align(
-    instance: *const c_void,
-    pairs: *const PairsRecord,
-    outcome: *mut OutcomeRecord,
+unsafe extern "C" fn call(
+    instance: *mut c_void,
+    method: u64,
+    request: Span<u64>,
+    lent: Span<Service>,
+    answer: *const Answer,
     message: *mut Message,
 ) -> Status {
-    guarded(message, || {
-        // SAFETY: made by `create`, not yet released, and shared only (`Alignment: Sync`).
-        let plugin = unsafe { instance.cast::<Instance>().as_ref() }.ok_or_else(missing)?;
-        // SAFETY: the host lends a valid record for the call.
-        let pairs = unsafe { pairs.as_ref() }.ok_or_else(missing)?;
-        // SAFETY: as above, and its spans with it.
-        let (source, target, weights) =
-            unsafe { (pairs.source.slice(), pairs.target.slice(), pairs.weights.slice()) };
-        let points = |rows: Option<&[[f64; 3]]>| -> Result<Vec<Point3<f64>>, PluginError> {
-            Ok(rows.ok_or_else(missing)?.iter().map(|p| Point3::from(*p)).collect())
-        };
-        let found = plugin.align(&Correspondences {
-            source: &points(source)?,
-            target: &points(target)?,
-            weights: weights.ok_or_else(missing)?,
-            fixed_scale: (pairs.has_fixed_scale != 0).then_some(pairs.fixed_scale),
-        })?;
-        if outcome.is_null() {
-            return Err(missing());
-        }
-        // SAFETY: the host lends a place for one outcome; it is not null.
-        unsafe { outcome.write(OutcomeRecord::from(&found)) };
-        Ok(())
-    })
+    // SAFETY: made by `create`, not yet released, and used by one call at a time.
+    let Some(instance) = (unsafe { instance.cast::<Instance>().as_mut() }) else {
+        return Status::INTERNAL;
+    };
+    // SAFETY: the host's records are valid for the call.
+    unsafe {
+        serve(method, request, lent, answer, message, |method, request, lent| {
+            instance.answer(method, request, lent)
+        })
+    }
 }
 
 unsafe extern "C" fn release(instance: *mut c_void) {
@@ -159,41 +231,4 @@ unsafe extern "C" fn release(instance: *mut c_void) {
     });
     // A plugin that panics while it ends has nobody left to tell.
     let _ = dropped;
-}
-
-fn missing() -> PluginError {
-    PluginError::Internal("the host passed no record where one is due".into())
-}
-
-/// The text of a span.
-///
-/// # Safety
-/// As [`Span::slice`].
-unsafe fn text<'a>(span: Span<u8>) -> Result<&'a str, PluginError> {
-    // SAFETY: the caller's promise.
-    let bytes = unsafe { span.slice() }.ok_or_else(missing)?;
-    std::str::from_utf8(bytes).map_err(|_| PluginError::Input("a text is not UTF-8".into()))
-}
-
-/// Runs `work` so that neither an error nor a panic leaves it but as a status and a text.
-fn guarded(message: *mut Message, work: impl FnOnce() -> Result<(), PluginError>) -> Status {
-    let ended = catch_unwind(AssertUnwindSafe(work));
-    let result = ended.unwrap_or_else(|panic| Err(PluginError::Internal(told(&*panic))));
-    let Err(error) = result else { return Status::OK };
-    let (status, text) = Status::of(error);
-    // SAFETY: the host lends null or a valid message.
-    if let Some(message) = unsafe { message.as_mut() } {
-        // SAFETY: with a buffer of the capacity that it names.
-        unsafe { message.write(&text) };
-    }
-    status
-}
-
-/// What a panic said.
-fn told(panic: &(dyn Any + Send)) -> String {
-    let text = panic
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    format!("the plugin panicked: {}", text.unwrap_or("without a text"))
 }

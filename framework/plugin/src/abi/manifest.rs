@@ -1,12 +1,15 @@
 //! The manifest beside a library: what is trusted, to the byte.
 
-use super::library;
-use crate::Kind;
+use super::library::{self, PluginId};
+use super::table::ABI_MAJOR;
 use seeone_core::Diagnostic;
 use seeone_core::frames::write_whole;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// The version of the manifest's own form.
+const SCHEMA: u32 = 2;
 
 /// A manifest larger than this is none.
 const LARGEST_MANIFEST: u64 = 64 * 1024;
@@ -14,14 +17,8 @@ const LARGEST_MANIFEST: u64 = 64 * 1024;
 /// What a library was when its user decided to trust it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Manifest {
-    /// The plugin's name.
-    pub name: String,
-    /// The plugin's kind.
-    pub kind: Kind,
-    /// The plugin's version.
-    pub version: String,
-    /// Major and minor version of the ABI.
-    pub abi: (u32, u32),
+    /// Its plugins.
+    pub plugins: Vec<PluginId>,
     /// Size of the library in bytes.
     pub size_bytes: u64,
     /// BLAKE3 of the library.
@@ -33,12 +30,20 @@ pub struct Manifest {
 #[serde(deny_unknown_fields)]
 struct Fields {
     schema: u32,
+    abi_major: u32,
+    size_bytes: u64,
+    blake3: String,
+    #[serde(rename = "plugin")]
+    plugins: Vec<PluginFields>,
+}
+
+/// One of its plugins.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PluginFields {
     name: String,
     kind: String,
     version: String,
-    abi: [u32; 2],
-    size_bytes: u64,
-    blake3: String,
 }
 
 impl Manifest {
@@ -72,20 +77,17 @@ impl Manifest {
         fields.resolve().map_err(damaged)
     }
 
-    /// Trusts `library` as it is now: loads it **unchecked** to learn its name, kind and
-    /// version, and writes its manifest beside it. For libraries whose user said so.
+    /// Trusts `library` as it is now: loads it **unchecked** to learn what plugins it
+    /// has, and writes its manifest beside it. For libraries whose user said so.
     ///
     /// # Errors
     /// When it is no library with a table that this host can serve, or the manifest cannot
     /// be written.
     pub fn write_for(library: &Path) -> Result<Self, Diagnostic> {
         let bytes = library::read(library)?;
-        let table = library::load(library)?;
+        let offers = library::load(library)?;
         let manifest = Self {
-            name: table.name,
-            kind: table.kind,
-            version: table.version,
-            abi: table.abi,
+            plugins: offers.into_iter().map(|offer| offer.id).collect(),
             size_bytes: bytes.len() as u64,
             blake3: blake3::hash(&bytes),
         };
@@ -122,28 +124,42 @@ impl Manifest {
 
     fn fields(&self) -> Fields {
         Fields {
-            schema: 1,
-            name: self.name.clone(),
-            kind: self.kind.name().to_owned(),
-            version: self.version.clone(),
-            abi: [self.abi.0, self.abi.1],
+            schema: SCHEMA,
+            abi_major: ABI_MAJOR,
             size_bytes: self.size_bytes,
             blake3: self.blake3.to_string(),
+            plugins: self.plugins.iter().map(PluginFields::from).collect(),
         }
+    }
+}
+
+impl From<&PluginId> for PluginFields {
+    fn from(id: &PluginId) -> Self {
+        let (name, version) = (id.name.clone(), id.version.clone());
+        Self { name, kind: id.kind.name().to_owned(), version }
+    }
+}
+
+impl PluginFields {
+    fn resolve(self) -> Result<PluginId, String> {
+        let Self { name, kind, version } = self;
+        let known = kind.parse().map_err(|()| format!("there is no plugin kind \"{kind}\""))?;
+        Ok(PluginId { name, kind: known, version })
     }
 }
 
 impl Fields {
     fn resolve(self) -> Result<Manifest, String> {
-        if self.schema != 1 {
-            return Err(format!("schema is {}, not 1", self.schema));
+        if self.schema != SCHEMA {
+            return Err(format!("schema is {}, not {SCHEMA}", self.schema));
         }
-        let kind = self.kind.parse();
-        let kind = kind.map_err(|()| format!("there is no plugin kind \"{}\"", self.kind))?;
+        if self.abi_major != ABI_MAJOR {
+            return Err(format!("it is for ABI {}, not {ABI_MAJOR}", self.abi_major));
+        }
         let blake3 = blake3::Hash::from_hex(&self.blake3);
         let blake3 = blake3.map_err(|_| "blake3 is not of 64 hexadecimal digits".to_owned())?;
-        let [major, minor] = self.abi;
-        let Self { name, version, size_bytes, .. } = self;
-        Ok(Manifest { name, kind, version, abi: (major, minor), size_bytes, blake3 })
+        let plugins = self.plugins.into_iter().map(PluginFields::resolve);
+        let plugins = plugins.collect::<Result<_, _>>()?;
+        Ok(Manifest { plugins, size_bytes: self.size_bytes, blake3 })
     }
 }

@@ -1,6 +1,6 @@
 //! The rules of kind `alignment`.
 
-use super::violation::{Violation, answered, hold, refused};
+use super::violation::{Violation, answered, answered_or_refused, hold, refused, sound};
 use crate::{Alignment, AlignmentOutcome, Correspondences};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use seeone_core::random::{direction, generator, normal};
@@ -84,13 +84,7 @@ fn keeps_its_ranges_and_its_bytes(
     let rule = "finite in, finite and within its range out";
     let pairs = Pairs::new(truth, 0.004);
     let found = answered(rule, plugin.align(&pairs.view(None)))?;
-    let share = 0.0..=1.0;
-    let kept = found.transform.to_homogeneous().iter().all(|v| v.is_finite())
-        && found.residual.is_finite()
-        && found.residual >= 0.0
-        && share.contains(&found.inlier_share)
-        && share.contains(&found.condition);
-    hold(rule, kept, || format!("{found:?}"))?;
+    sound(rule, found.check())?;
 
     let rule = "the same input gives the same bytes";
     let again = answered(rule, plugin.align(&pairs.view(None)))?;
@@ -142,7 +136,12 @@ fn refuses_what_is_wrong(plugin: &dyn Alignment, truth: &Similarity) -> Result<(
         pairs.weights.truncate(n);
     };
     refused("no pairs are refused", broken(&|p| cut(p, 0)))?;
+    refused("one pair is refused", broken(&|p| cut(p, 1)))?;
     refused("two pairs are refused", broken(&|p| cut(p, 2)))?;
+    for few in [3, 4] {
+        let rule = "few pairs are answered or refused";
+        answered_or_refused(rule, broken(&|p| cut(p, few)), AlignmentOutcome::check)?;
+    }
     refused("a missing target is refused", broken(&|p| p.target.truncate(79)))?;
     refused("a missing weight is refused", broken(&|p| p.weights.truncate(79)))?;
     refused("a NaN source is refused", broken(&|p| p.source[7].y = f64::NAN))?;

@@ -1,6 +1,7 @@
 //! The rules of kind `transfer`.
 
-use super::violation::{Violation, answered, hold, refused};
+use super::violation::{Violation, answered, answered_or_refused, hold, refused, sound};
+use crate::transfer::check_candidates;
 use crate::{Candidate, CanonicalCloud, Features, Field, PluginError, Transfer, TransferTask};
 use nalgebra::{Point3, Vector3};
 use seeone_core::Pose;
@@ -109,8 +110,8 @@ pub fn transfer(plugin: &dyn Transfer) -> Result<(), Violation> {
     let rule = "finite in, finite and within its range out";
     let scene = Scene::with_rise(0.04);
     let found = answered(rule, plugin.transfer(&scene.task()))?;
-    hold(rule, found.iter().all(in_range), || format!("{found:?}"))?;
     hold("there is always a candidate", !found.is_empty(), || "none".into())?;
+    sound(rule, check_candidates(&found))?;
 
     let rule = "the same input gives the same bytes";
     let again = answered(rule, plugin.transfer(&scene.task()))?;
@@ -124,19 +125,21 @@ pub fn transfer(plugin: &dyn Transfer) -> Result<(), Violation> {
     refuses_what_is_wrong(plugin)
 }
 
-fn in_range(candidate: &Candidate) -> bool {
-    candidate.pose.to_homogeneous().iter().all(|v| v.is_finite())
-        && candidate.loss.is_finite()
-        && (0.0..=1.0).contains(&candidate.confidence)
-        && !candidate.origin.is_empty()
-}
-
 fn refuses_what_is_wrong(plugin: &dyn Transfer) -> Result<(), Violation> {
     let broken = |spoil: &dyn Fn(&mut Scene)| -> Result<Vec<Candidate>, PluginError> {
         let mut scene = Scene::with_rise(0.0);
         spoil(&mut scene);
         plugin.transfer(&scene.task())
     };
+    answered_or_refused(
+        "a cloud of one point is answered or refused",
+        broken(&|s| {
+            s.cloud.points.truncate(1);
+            s.cloud.nocs.truncate(1);
+            s.cloud.confidence.truncate(1);
+        }),
+        |found| check_candidates(found),
+    )?;
     refused("an empty cloud is refused", broken(&|s| s.cloud = CanonicalCloud::default()))?;
     refused("a cloud without coordinates is refused", broken(&|s| s.cloud.nocs.clear()))?;
     refused("a NaN coordinate is refused", broken(&|s| s.cloud.nocs[3].x = f64::NAN))?;

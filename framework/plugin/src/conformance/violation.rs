@@ -38,3 +38,22 @@ pub(super) fn refused<T>(
         Ok(_) => Err(Violation { rule, detail: "answered".into() }),
     }
 }
+
+/// Holds the rule that the plugin answers what `check` finds nothing wrong with, or calls its
+/// input wrong: for input at the edge of what can be worked on.
+pub(super) fn answered_or_refused<T>(
+    rule: &'static str,
+    answer: Result<T, crate::PluginError>,
+    check: impl FnOnce(&T) -> Result<(), String>,
+) -> Result<(), Violation> {
+    match answer {
+        Ok(answer) => check(&answer).map_err(|detail| Violation { rule, detail }),
+        Err(crate::PluginError::Input(_)) => Ok(()),
+        Err(other) => Err(Violation { rule, detail: format!("failed otherwise: {other}") }),
+    }
+}
+
+/// Holds the rule that an answer is what its kind may answer.
+pub(super) fn sound(rule: &'static str, checked: Result<(), String>) -> Result<(), Violation> {
+    checked.map_err(|detail| Violation { rule, detail })
+}

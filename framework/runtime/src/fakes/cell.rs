@@ -13,7 +13,7 @@ use seeone_core::robot::RobotOptions;
 use seeone_core::{Cloud, HeadSize, Intrinsics, Pose, Similarity};
 use seeone_plugin::{
     Action, Camera, Felt, GripperCommand, Judge, Measure, Observation, PluginError, Robot,
-    RobotSample, RobotState, Verdict,
+    RobotSample, RobotState, Verdict, Watch,
 };
 use std::collections::BTreeMap;
 use std::fs;
@@ -80,11 +80,7 @@ impl Robot for FakeRobot {
         Ok(RobotState { joints: vec![0.1], opening_m: self.opening_m })
     }
 
-    fn execute(
-        &mut self,
-        action: &Action,
-        watch: &mut dyn FnMut(&RobotSample),
-    ) -> Result<Felt, PluginError> {
+    fn execute(&mut self, action: &Action, watch: &mut Watch) -> Result<Felt, PluginError> {
         broken(&self.behaviour, "act")?;
         self.moved.store(true, Ordering::Relaxed);
         match action {
