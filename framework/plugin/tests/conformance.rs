@@ -127,8 +127,11 @@ fn faulty_transfers_are_caught_by_the_rule_they_break() {
     conformance::transfer(&Says(|task| task.check().map(|()| kept(task, 0.5)))).expect("conforms");
 }
 
+/// What is made of an outcome.
+type Alter = fn(&mut IkOutcome);
+
 /// Kinematics that alter what the suite's own answer.
-struct Altered(fn(&mut IkOutcome));
+struct Altered(Alter);
 
 impl Kinematics for Altered {
     fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError> {
@@ -140,7 +143,7 @@ impl Kinematics for Altered {
 
 #[test]
 fn dishonest_kinematics_are_caught_by_the_rule_they_break() {
-    let cases: [(&str, fn(&mut IkOutcome)); 5] = [
+    let cases: [(&str, Alter); 5] = [
         ("what is near is reached", |o| o.status = IkStatus::Infeasible),
         ("what is out of reach is infeasible, with a reason", |o| o.status = IkStatus::Solved),
         ("finite in, finite and within the limits out", |o| o.joints[2] = 9.0),

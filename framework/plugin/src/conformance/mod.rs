@@ -2,7 +2,7 @@
 //! plain function a kind, called by the tests of the plugins and of the loader.
 //!
 //! A suite knows nothing of the plugin: it brings its own clouds, fields, kinematics
-//! ([`Descent`]), arm ([`arm`]) and world ([`StillWorld`]), so that a plugin is tested without
+//! ([`Descent`]), arm ([`arm()`]) and world ([`StillWorld`]), so that a plugin is tested without
 //! any other. That a plugin answers at all in time is the loader's business: one that hangs is
 //! left alone.
 
