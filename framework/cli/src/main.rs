@@ -7,6 +7,7 @@ mod console;
 mod faults;
 mod files;
 mod follow;
+mod judge;
 mod motion_table;
 mod objects;
 mod outputs;

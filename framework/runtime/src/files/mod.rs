@@ -7,6 +7,8 @@
 
 mod check;
 mod codes;
+mod hook;
+mod measure;
 mod obstacle;
 mod resolver;
 mod robot_file;
@@ -20,7 +22,7 @@ mod source;
 pub use check::{check, family_of};
 pub use codes::Family;
 pub use robot_file::RobotFile;
-pub use scene::{Drop, Head, Scene, Table};
+pub use scene::{Drop, Head, Hook, Scene, Table, Targets};
 pub use skill::{Demonstration, RelativeTo, Skill, Stage};
 
 use seeone_plugin::Kind;

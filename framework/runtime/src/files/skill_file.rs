@@ -1,13 +1,14 @@
 //! Reading a skill.
 
 use super::codes::{Family, Fault};
+use super::measure::{RawSuccess, measure};
 use super::resolver::Resolver;
 use super::source::Source;
 use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
 use nalgebra::Point3;
 use seeone_core::Diagnostic;
 use seeone_core::pose::PoseFields;
-use seeone_plugin::{GripperCommand, Kind, Measure};
+use seeone_plugin::{GripperCommand, Kind};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -62,13 +63,6 @@ struct RawGripper {
     open_m: Option<Spanned<f64>>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawSuccess {
-    measure: Spanned<String>,
-    tolerance_d: Spanned<f64>,
-}
-
 /// The longest straight line a stage may ask for, metres.
 const LONGEST_LINE_M: f64 = 0.5;
 /// The widest gripper opening a stage may ask for, metres.
@@ -96,9 +90,9 @@ impl Skill {
             category: resolver.name("category", &raw.category),
             summary: raw.summary,
             stages: stages(&mut resolver, &raw.stage, &demonstration),
-            demonstration,
             methods: methods(&mut resolver, &raw.methods, known),
-            measure: measure(&mut resolver, &raw.success),
+            measure: measure(&mut resolver, &raw.success, &demonstration),
+            demonstration,
         };
         resolver.finish(skill)
     }
@@ -187,17 +181,27 @@ fn relative_to(
     raw: &Spanned<String>,
     demonstration: &Demonstration,
 ) -> RelativeTo {
-    let name = raw.get_ref();
-    if name == "object" {
+    if raw.get_ref() == "object" {
         return RelativeTo::Object;
     }
+    RelativeTo::Frame(frame_of(resolver, raw, demonstration, ["object"]))
+}
+
+/// The name of a frame that the demonstration has; `others` could have been meant, too.
+pub(super) fn frame_of<const N: usize>(
+    resolver: &mut Resolver,
+    raw: &Spanned<String>,
+    demonstration: &Demonstration,
+    others: [&str; N],
+) -> String {
+    let name = raw.get_ref();
     if !demonstration.frames.contains_key(name) {
-        let known = demonstration.frames.keys().map(String::as_str).chain(["object"]);
+        let known = demonstration.frames.keys().map(String::as_str).chain(others);
         let cause = format!("the demonstration has no frame {name:?}");
         let fault = resolver.source.fault(Fault::Reference, raw.span(), cause);
         resolver.note(fault.suggest(name, known));
     }
-    RelativeTo::Frame(name.clone())
+    name.clone()
 }
 
 fn command(resolver: &mut Resolver, raw: &Spanned<RawGripper>) -> Option<GripperCommand> {
@@ -241,14 +245,4 @@ fn methods(
         methods.insert(kind, name.get_ref().clone());
     }
     methods
-}
-
-fn measure(resolver: &mut Resolver, raw: &RawSuccess) -> Measure {
-    let name = raw.measure.get_ref();
-    if name != "worn" {
-        let cause = format!("there is no measure {name:?}");
-        let fault = resolver.source.fault(Fault::Reference, raw.measure.span(), cause);
-        resolver.note(fault.suggest(name, ["worn"]));
-    }
-    Measure::Worn { tolerance_d: resolver.number("tolerance_d", &raw.tolerance_d, 1e-3..=1.0) }
 }
