@@ -67,7 +67,10 @@ fn a_wrong_obstacle_is_told() {
 fn a_wrong_hook_is_told() {
     let bench = Bench::new();
     bench.copy(HOOK);
-    let run = |bench: &Bench| bench.run(&["--scene", &bench.arg(HOOK)]);
+    let run = |bench: &Bench| {
+        let [skill, scene, out] = [SKILL, HOOK, "out"].map(|name| bench.arg(name));
+        seeone(["run", &skill, "--scene", &scene, "--out", &out])
+    };
     let told = |case: &str, bench: &Bench, code: &str, cause: &str| {
         refused(case, bench, &run(bench), code, &["hook.toml:", cause]);
     };

@@ -18,7 +18,11 @@ const SHAKE_HZ: f64 = 2.0;
 /// Nearer to the peg than this it touches it, metres: half a layer of fabric.
 const TOUCH_M: f64 = 2.0e-3;
 /// What hangs is farther from the table than this, metres.
-const CLEAR_M: f64 = 0.02;
+const CLEAR_M: f64 = 5.0e-3;
+/// What hangs still keeps its centre of mass within this for a second, metres. Its speed is
+/// not asked for: fabric that is wedged on the peg may shiver in place.
+const STILL_M: f64 = 5.0e-3;
+const STILL_S: f64 = 1.0;
 
 /// What became of an object that was to hang on the hook.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +58,8 @@ impl fmt::Display for Hanging {
 }
 
 impl Cell {
-    /// Takes an empty hand away, lets the object come to rest and then waits for three
-    /// seconds, the last of them shaken; and says where it then is. From a hand that holds it
+    /// Takes an empty hand away, lets the object come to rest, waits for three seconds, the
+    /// last of them shaken, and says where it then stays. From a hand that holds it
     /// nothing is taken.
     ///
     /// # Errors
@@ -69,11 +73,12 @@ impl Cell {
         world.remove_hand();
         world.settle(SETTLE_S);
         wait(world, &(hook.pose.rotation * Vector3::x()));
-        let at_rest = world.settle(SETTLE_S).at_rest;
+        world.settle(SETTLE_S);
+        let still = keeps_still(world);
         let clear_m = world.vertices().iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
         let on_peg = world.min_signed_distance_to_peg().is_some_and(|gap| gap < TOUCH_M);
         self.whole()?;
-        Ok(match (clear_m > CLEAR_M, at_rest, on_peg) {
+        Ok(match (clear_m > CLEAR_M, still, on_peg) {
             (false, ..) => Hanging::OnTable,
             (true, false, _) => Hanging::Swinging,
             (true, true, false) => Hanging::OffPeg,
@@ -82,10 +87,22 @@ impl Cell {
     }
 }
 
-/// Shakes along `side`, a unit vector along the wall.
+/// Whether the object is where it was for the second to come.
+fn keeps_still(world: &mut World) -> bool {
+    let place = world.centre_of_mass();
+    (0..frames(STILL_S)).all(|_| {
+        world.advance();
+        (world.centre_of_mass() - place).norm() < STILL_M
+    })
+}
+
+fn frames(seconds: f64) -> usize {
+    (seconds / FRAME_S).round() as usize
+}
+
+/// Waits, and shakes along `side`, a unit vector along the wall.
 fn wait(world: &mut World, side: &Vector3<f64>) {
     let gravity = world.gravity();
-    let frames = |seconds: f64| (seconds / FRAME_S).round() as usize;
     for _ in 0..frames(STAY_S - SHAKE_S) {
         world.advance();
     }

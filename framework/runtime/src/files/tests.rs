@@ -145,7 +145,8 @@ fn a_scene_is_read_and_tells_frames_and_obstacles() {
 #[test]
 fn a_scene_has_a_head_or_a_hook_or_both() {
     let folder = folder();
-    let hook = "[hook]\npose = { xyz_m = [0.35, 0.6, 0.3], quat_xyzw = [0, 0, 1, 0] }\nfriction = 0.3\n";
+    let hook =
+        "[hook]\npose = { xyz_m = [0.35, 0.6, 0.3], quat_xyzw = [0, 0, 1, 0] }\nfriction = 0.3\n";
     let (before, rest) = SCENE.split_once("[head]").unwrap();
     let (head, after) = rest.split_once("[camera]").unwrap();
     let with = |targets: &str| format!("{before}{targets}[camera]{after}");
@@ -155,7 +156,7 @@ fn a_scene_has_a_head_or_a_hook_or_both() {
     assert_eq!(alone.frame("hook").unwrap().translation.vector, Vector3::new(0.35, 0.6, 0.3));
     // Table, peg and wall.
     assert_eq!(alone.obstacles().len(), 3);
-    let both = format!("[head]{head}{hook}length_m = 0.12\n[frames]\n") 
+    let both = format!("[head]{head}{hook}length_m = 0.12\n[frames]\n")
         + "person = { xyz_m = [0.6, 0.3, 0.4], quat_xyzw = [0, 0, 0, 1] }\n";
     let both = Scene::read(&written(&folder, &with(&both)), &known()).unwrap();
     assert!(both.head().is_some() && both.obstacles().len() == 4);
@@ -185,7 +186,11 @@ fn every_measure_survives_writing_with_its_own_keys_alone() {
         assert_eq!(Skill::read(&written(&folder, &text), &known()).unwrap().measure, measure);
     }
     for (success, code, cause) in [
-        ("measure = \"hung\"\ntolerance_d = 0.1", "S012", "the measure \"hung\" has no tolerance_d"),
+        (
+            "measure = \"hung\"\ntolerance_d = 0.1",
+            "S012",
+            "the measure \"hung\" has no tolerance_d",
+        ),
         ("measure = \"worn\"", "S011", "the measure \"worn\" needs tolerance_d"),
         ("measure = \"held\"\nat = \"head\"", "S011", "the measure \"held\" needs within_m"),
         ("measure = \"held\"\nat = \"hed\"\nwithin_m = 0.1", "S024", "no frame \"hed\""),

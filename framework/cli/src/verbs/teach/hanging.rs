@@ -23,8 +23,9 @@ const OUT_M: f64 = 0.13;
 const HIGH_M: f64 = 0.035;
 /// The hand then goes down until the peg bears this load, newtons, or ...
 const CONTACT_N: f64 = 10.0;
-/// ... the hem would be so far below the peg's middle line, metres.
-const LOWEST_M: f64 = -0.040;
+/// ... the hem would be so far below the peg's middle line, metres: how far the hem lies over
+/// the back of the object differs by 60 mm between caps and hats with a brim all around.
+const LOWEST_M: f64 = -0.080;
 
 /// The expert's key poses at the hook.
 pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
