@@ -221,6 +221,16 @@ fn a_cap_is_said_to_hang_only_where_it_does() {
 }
 
 #[test]
+fn a_cap_is_held_out_only_where_it_is() {
+    let out = Attempt::of("skills/cap-handing-over.toml", &[]);
+    let reason = out.outcome["reason"].as_str().expect("a reason");
+    let told = reason.strip_prefix("held ").and_then(|rest| rest.split_once(" mm from person"));
+    let near = told.is_some_and(|(off, _)| off.parse::<f64>().expect("a number") <= 80.0);
+    assert_eq!(out.outcome["success"] == true, near, "{}", out.outcome);
+    assert!(out.outcome["error_m"].is_null());
+}
+
+#[test]
 fn every_other_plugin_reaches_an_honest_outcome() {
     for (kind, name) in [
         ("transfer", "unchanged"),

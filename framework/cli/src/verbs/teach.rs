@@ -156,7 +156,7 @@ struct Lesson {
     measure: Measure,
 }
 
-/// The visor's front edge, by which the expert takes every cap.
+/// The visor's front edge, by which the expert takes every cap, and the cell as it is now.
 fn grasp(cell: &SimulatedCell) -> Result<(VisorGrasp, Cell)> {
     let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
     let object = cell.object();
