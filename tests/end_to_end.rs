@@ -27,9 +27,14 @@ impl Attempt {
     /// Makes it with `extra` arguments. Whatever becomes of it, it is an attempt: exit
     /// status 0 with success, 1 with a reason for the failure.
     fn new(extra: &[&str]) -> Self {
+        Self::of(SKILL, extra)
+    }
+
+    /// The same with another skill.
+    fn of(skill: &str, extra: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let out = folder.path().display().to_string();
-        let mut words = vec!["run", SKILL, "--json", "--seed", SEED, "--out", &out];
+        let mut words = vec!["run", skill, "--json", "--seed", SEED, "--out", &out];
         words.extend(extra);
         let call = seeone(&words);
         assert!(matches!(call.status, Some(0 | 1)), "{extra:?}: {:?} {}", call.status, call.stderr);
@@ -155,6 +160,44 @@ fn a_dry_run_plans_and_moves_nothing() {
     assert!(moments.iter().all(|body| body["joints"] == moments[0]["joints"]), "the robot moved");
     let planned = dry.stage("plan").is_some_and(|stage| stage["ok"] == true);
     assert_eq!(dry.call.status, Some(i32::from(!planned)), "{}", dry.call.stdout);
+}
+
+/// Height of the object's lowest vertex over the table in a recording's last moment, metres.
+fn lowest_at_the_end(recording: &Recording) -> f64 {
+    let end = recording.of(Channel::Object).last().expect("the object's last moment");
+    let vertices = end.body["vertices"].as_array().expect("vertices");
+    vertices.iter().map(|v| v[2].as_f64().expect("a height")).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_cap_is_said_to_hang_only_where_it_does() {
+    let hung = Attempt::of("skills/cap-hanging.toml", &["--scene", "scenes/hook.toml"]);
+    let outcome = &hung.outcome;
+    for key in ["error_m", "error_d", "tilt_deg", "yaw_deg"] {
+        assert!(outcome[key].is_null(), "{key} is of wearing: {outcome}");
+    }
+    let recording = read(&hung.recording_path()).expect("a sound recording");
+    agrees(&recording, outcome);
+    let lowest = lowest_at_the_end(&recording);
+    let reason = outcome["reason"].as_str().expect("a reason");
+    if outcome["success"] == true {
+        assert!(lowest > 0.005, "hangs {lowest} m over the table");
+        assert_eq!(outcome["grasped"], true);
+        assert_eq!(reason, format!("hangs {:.0} mm over the table", lowest * 1e3));
+    }
+    if reason.contains("on the table") {
+        assert!(lowest < 0.005, "lies {lowest} m over the table");
+    }
+}
+
+#[test]
+fn a_cap_is_held_out_only_where_it_is() {
+    let out = Attempt::of("skills/cap-handing-over.toml", &[]);
+    let reason = out.outcome["reason"].as_str().expect("a reason");
+    let told = reason.strip_prefix("held ").and_then(|rest| rest.split_once(" mm from person"));
+    let near = told.is_some_and(|(off, _)| off.parse::<f64>().expect("a number") <= 80.0);
+    assert_eq!(out.outcome["success"] == true, near, "{}", out.outcome);
+    assert!(out.outcome["error_m"].is_null());
 }
 
 #[test]
@@ -324,6 +367,21 @@ fn a_skill_that_was_taught_is_sound() {
     assert_eq!(checked.status, Some(0), "{}", checked.stderr);
     let text = fs::read_to_string(&skill).expect("the skill");
     assert!(text.contains("cloud = \"shown/demonstration.ply\""), "{text}");
+}
+
+#[test]
+fn hanging_is_taught_where_there_is_a_hook() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let skill = folder.path().join("hung.toml").display().to_string();
+    let nowhere = seeone(["teach", &skill, "--show", "hanging"]);
+    assert_eq!(nowhere.status, Some(2), "{}", nowhere.stderr);
+    assert!(nowhere.stderr.contains("error[M005]: scene \"head\" has no hook"));
+    let taught = seeone(["teach", &skill, "--show", "hanging", "--scene", "scenes/hook.toml"]);
+    assert_eq!(taught.status, Some(0), "{}", taught.stderr);
+    let checked = seeone(["check", &skill]);
+    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
+    let text = fs::read_to_string(&skill).expect("the skill");
+    assert!(text.contains("measure = \"hung\"") && text.contains("frames.hook = "), "{text}");
 }
 
 #[test]

@@ -20,6 +20,7 @@ use support::{Bench, Call};
 
 const SKILL: &str = "skills/cap-wearing.toml";
 const SCENE: &str = "scenes/head.toml";
+const HOOK: &str = "scenes/hook.toml";
 const ROBOT: &str = "robots/ur5-ag95-sim.toml";
 
 /// A call that was refused: exit status 2, a code, every word of `says`, advice, and

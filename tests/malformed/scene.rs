@@ -1,7 +1,7 @@
 //! Scene files.
 
 use crate::support::{Bench, seeone};
-use crate::{SCENE, SKILL, each_is_refused, refused};
+use crate::{HOOK, SCENE, SKILL, each_is_refused, refused};
 
 #[test]
 fn a_wrong_scene_is_told() {
@@ -61,4 +61,52 @@ fn a_wrong_obstacle_is_told() {
         bench.append(SCENE, &format!("\n[[obstacle]]\nname = \"stand\"\n{pose}\n{shape}\n"));
         refused(case, &bench, &bench.run(&[]), code, &["head.toml:", cause]);
     }
+}
+
+#[test]
+fn a_wrong_hook_is_told() {
+    let bench = Bench::new();
+    bench.copy(HOOK);
+    let run = |bench: &Bench| {
+        let [skill, scene, out] = [SKILL, HOOK, "out"].map(|name| bench.arg(name));
+        seeone(["run", &skill, "--scene", &scene, "--out", &out])
+    };
+    let told = |case: &str, bench: &Bench, code: &str, cause: &str| {
+        refused(case, bench, &run(bench), code, &["hook.toml:", cause]);
+    };
+    let shipped = bench.text(HOOK);
+    for (case, start, line, code, cause) in [
+        ("endless", "length_m", "length_m = 1.5", "C020", "length_m = 1.5"),
+        ("no number", "length_m", "length_m = nan", "C003", "nan"),
+        ("unknown key", "length_m", "lenght_m = 0.14", "C012", "did you mean \"length_m\"?"),
+        ("slippery", "friction = 0.3", "friction = -0.1", "C020", "friction"),
+        (
+            "leaning",
+            "pose = { xyz_m = [0.25, 0.55",
+            "pose = { xyz_m = [0.25, 0.55, 0.28], quat_xyzw = [1.0, 0.0, 0.0, 0.0] }",
+            "C022",
+            "leans",
+        ),
+        (
+            "in the drop zone",
+            "pose = { xyz_m = [0.25, 0.55",
+            "pose = { xyz_m = [0.25, 0.55, 0.28], quat_xyzw = [0.0, 0.0, 0.0, 1.0] }",
+            "C023",
+            "stands in the drop zone",
+        ),
+    ] {
+        bench.write(HOOK, &shipped);
+        bench.set_line(HOOK, start, line);
+        told(case, &bench, code, cause);
+    }
+    let (before, rest) = shipped.split_once("[hook]").expect("a hook");
+    let (hook, after) = rest.split_once("[camera]").expect("a camera");
+    bench.write(HOOK, format!("{before}[camera]{after}"));
+    told("neither head nor hook", &bench, "C011", "neither a [head] nor a [hook]");
+    let place = "hook = { xyz_m = [0.0, 0.0, 0.0], quat_xyzw = [0.0, 0.0, 0.0, 1.0] }";
+    bench.write(HOOK, format!("{before}[hook]{hook}[frames]\n{place}\n[camera]{after}"));
+    told("a place named as a thing", &bench, "C021", "\"hook\"");
+    bench.write(HOOK, &shipped);
+    // The skill puts caps on a head.
+    refused("no head", &bench, &run(&bench), "M005", &["\"head\"", "hook"]);
 }

@@ -58,11 +58,16 @@ impl Bench {
             "robots/ur5-ag95-sim.toml",
             "robots/ur5-ag95.urdf",
         ] {
-            let to = bench.path(name);
-            fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
-            fs::copy(root().join(name), to).expect("a shipped file");
+            bench.copy(name);
         }
         bench
+    }
+
+    /// A copy of another shipped file.
+    pub fn copy(&self, name: &str) {
+        let to = self.path(name);
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(root().join(name), to).expect("a shipped file");
     }
 
     /// The path of something in the folder.

@@ -270,6 +270,9 @@ pub struct EvalSkillArgs {
 pub struct TeachArgs {
     /// The skill file to write; its cloud goes into a folder of its name beside it.
     pub skill: PathBuf,
+    /// What is shown.
+    #[arg(long, value_enum, default_value_t = Shown::Wearing)]
+    pub show: Shown,
     /// The object that is shown.
     #[arg(long, default_value = "cap-train-077")]
     pub object: String,
@@ -282,6 +285,15 @@ pub struct TeachArgs {
     /// The scene it is shown in.
     #[arg(long, default_value = "scenes/head.toml")]
     pub scene: PathBuf,
+}
+
+/// What the scripted expert can show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Shown {
+    /// Putting a cap on the scene's head.
+    Wearing,
+    /// Hanging a cap on the scene's hook.
+    Hanging,
 }
 
 /// `objects ...`.

@@ -25,6 +25,8 @@ const PANEL: Intrinsics =
 pub const MAT: Color = [0.80, 0.77, 0.71];
 /// The colour of heads.
 pub const SKIN: Color = [0.87, 0.69, 0.57];
+/// The colour of hooks and of the wall behind them.
+const WOOD: Color = [0.70, 0.62, 0.50];
 const ARM: Color = [0.72, 0.76, 0.80];
 const CROWN: Color = [0.16, 0.32, 0.62];
 const FRONT: Color = [0.20, 0.38, 0.70];
@@ -66,15 +68,17 @@ impl RunPicture {
         finished: &Finished,
         path: &Path,
     ) -> Result<()> {
-        let (object, head) = {
+        let (object, standing) = {
             let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
-            (cell.object().clone(), cell.head_mesh())
+            let head = cell.head_mesh().map(|mesh| (mesh, SKIN));
+            let hook = cell.hook_mesh().map(|mesh| (mesh, WOOD));
+            (cell.object().clone(), head.into_iter().chain(hook).collect::<Vec<_>>())
         };
         let mut moments = vec![self.before];
         moments.extend(moments_of(workcell, finished));
         let panels = moments
             .iter()
-            .map(|moment| panel(workcell, &object, head.as_ref(), moment))
+            .map(|moment| panel(workcell, &object, &standing, moment))
             .collect::<Result<Vec<_>>>()?;
         write_png(&montage(&panels, 2), path)
     }
@@ -119,7 +123,7 @@ fn moment_at(acted: &Acted, time_s: f64) -> Option<Moment> {
 fn panel(
     workcell: &Workcell,
     object: &Object,
-    head: Option<&TriangleMesh>,
+    standing: &[(TriangleMesh, Color)],
     moment: &Moment,
 ) -> Result<Picture> {
     let table = scenery::table();
@@ -129,7 +133,9 @@ fn panel(
         Colored { mesh: &table, paint: Paint::Plain(MAT) },
         Colored { mesh: &cap, paint: Paint::PerTriangle(colors(object)) },
     ];
-    scene.extend(head.map(|mesh| Colored { mesh, paint: Paint::Plain(SKIN) }));
+    for (mesh, color) in standing {
+        scene.push(Colored { mesh, paint: Paint::Plain(*color) });
+    }
     scene.extend(arm.iter().map(|mesh| Colored { mesh, paint: Paint::Plain(ARM) }));
     Ok(render(&scene, &looking_at(&EYE, &SUBJECT), &PANEL))
 }

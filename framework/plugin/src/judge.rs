@@ -3,7 +3,7 @@
 use crate::PluginError;
 
 /// What a skill counts as success.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Measure {
     /// Mean vertex distance to the worn state below this share of the diameter `d`
     /// (method: Eq. 12).
@@ -11,6 +11,27 @@ pub enum Measure {
         /// Share of the object's diameter.
         tolerance_d: f64,
     },
+    /// On the hook by itself: let go, at rest for some seconds, touching the peg and neither
+    /// table nor hand.
+    Hung,
+    /// In the hand, clear of the table, with its centre of mass near a frame of the scene.
+    Held {
+        /// The frame's name.
+        frame: String,
+        /// How near to the frame's origin, metres.
+        within_m: f64,
+    },
+}
+
+impl Measure {
+    /// Its name in skill files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Worn { .. } => "worn",
+            Self::Hung => "hung",
+            Self::Held { .. } => "held",
+        }
+    }
 }
 
 /// How a run ended, judged by the world and never by the plan.
@@ -20,7 +41,8 @@ pub struct Verdict {
     pub grasped: bool,
     /// Within the skill's tolerance.
     pub success: bool,
-    /// Mean vertex distance to the worn state, metres, when the object came to rest.
+    /// Mean vertex distance to the worn state, metres, when the object came to rest; this and
+    /// what follows are `None` where wearing was not to be judged.
     pub error_m: Option<f64>,
     /// The same as a share of the diameter.
     pub error_d: Option<f64>,
@@ -46,7 +68,7 @@ pub trait Judge: Send {
     ///
     /// # Errors
     /// When the world cannot be judged.
-    fn judge(&mut self, measure: Measure, grasped: bool) -> Result<Verdict, PluginError>;
+    fn judge(&mut self, measure: &Measure, grasped: bool) -> Result<Verdict, PluginError>;
 
     /// The object's vertices in `world` now, for the recording alone.
     fn object(&self) -> Vec<[f64; 3]>;

@@ -52,7 +52,7 @@ impl Cell {
         cell.whole().map(|()| cell)
     }
 
-    fn whole(&self) -> Result<(), String> {
+    pub(crate) fn whole(&self) -> Result<(), String> {
         self.world.fault().map_or(Ok(()), |fault| Err(fault.to_string()))
     }
 
@@ -64,6 +64,10 @@ impl Cell {
     /// The world, for whoever judges or draws it.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    pub(crate) fn world_mut(&mut self) -> &mut World {
+        &mut self.world
     }
 
     /// Seconds of simulated time.

@@ -9,6 +9,7 @@ pub mod drop;
 pub mod expert;
 mod grasp;
 pub mod hand;
+pub mod hanging;
 pub mod import;
 pub mod object;
 pub mod object_file;
@@ -27,7 +28,8 @@ pub mod worn;
 
 pub use contact::ellipsoid::Ellipsoid;
 pub use hand::{Hand, HandState};
+pub use hanging::Hanging;
 pub use object::{Material, Object, ObjectFault, Region, Symmetry};
-pub use surroundings::{Frictions, Head, HeadSize, Hook, Surroundings};
+pub use surroundings::{Frictions, Head, HeadSize, Hook, Peg, Surroundings};
 pub use wearing::WearError;
 pub use world::{Settings, Settled, World};

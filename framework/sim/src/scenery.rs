@@ -1,8 +1,9 @@
 //! Meshes of what is stiff: the table and the mat on it, a head, a hook, fingers.
 
 use crate::hand::{FINGER_THICKNESS_M, Hand, PAD_HEEL_M, PAD_TIP_M, PAD_WIDTH_M};
-use crate::surroundings::{Head, Hook, PEG_BALL_RADIUS_M, PEG_RADIUS_M};
+use crate::surroundings::{Head, Hook};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use seeone_core::hook::{PEG_BALL_RADIUS_M, PEG_RADIUS_M};
 use seeone_core::{Pose, TriangleMesh};
 
 /// A rectangle in the plane `z = height`, centred at `centre`, facing up.
@@ -80,7 +81,7 @@ fn cuboid(half_m: &Vector3<f64>, pose: &Pose) -> TriangleMesh {
 
 /// A hook and a piece of the wall behind it, in `world`.
 pub fn hook(hook: &Hook) -> TriangleMesh {
-    let tip = hook.pose * Hook::tip();
+    let tip = hook.tip();
     let out = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), -std::f64::consts::FRAC_PI_2);
     let wall = rectangle([0.0, 0.0], WALL_M, 0.0);
     let placed = wall.vertices().iter().map(|p| hook.pose * (out * p)).collect();
@@ -193,8 +194,9 @@ mod tests {
 
     #[test]
     fn a_hook_sticks_out_of_its_wall() {
-        let (low, high) = hook(&Hook { pose: Pose::translation(0.0, 0.4, 0.5) }).bounds();
-        assert!((high.y - (0.4 + Hook::tip().y + PEG_BALL_RADIUS_M)).abs() < 1e-3);
+        let standing = Hook::coat(Pose::translation(0.0, 0.4, 0.5));
+        let (low, high) = hook(&standing).bounds();
+        assert!((high.y - (standing.tip().y + PEG_BALL_RADIUS_M)).abs() < 1e-3);
         assert!((high.z - low.z - WALL_M[1]).abs() < 1e-9);
     }
 }

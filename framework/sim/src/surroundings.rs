@@ -4,9 +4,10 @@ mod head;
 mod hook;
 
 pub use head::Head;
-pub use hook::{Hook, PEG_BALL_RADIUS_M, PEG_LENGTH_M, PEG_RADIUS_M};
+pub use hook::Hook;
 
 use crate::contact::{Body, Probes, Shape};
+pub use seeone_core::Peg;
 pub use seeone_core::head::{HEAD_SEMI_AXES_M, HeadSize};
 
 use seeone_core::Pose;

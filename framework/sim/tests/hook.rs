@@ -9,7 +9,7 @@ use nalgebra::{Rotation3, Translation3, UnitQuaternion, Vector3};
 use seeone_core::Pose;
 use seeone_sim::category::cap;
 use seeone_sim::expert::VisorGrasp;
-use seeone_sim::surroundings::PEG_LENGTH_M;
+use seeone_sim::surroundings::Peg;
 use seeone_sim::{Hand, Hook, Object, Region, Settings, Surroundings, World};
 
 /// Where the peg leaves the wall, metres.
@@ -24,7 +24,7 @@ const WALL_GAP_M: f64 = 0.005;
 /// The hook, whose peg points away from the wall along -y.
 fn hook() -> Hook {
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
-    Hook { pose: Pose::from_parts(Translation3::from(Vector3::from(HOOK_M)), turn) }
+    Hook::coat(Pose::from_parts(Translation3::from(Vector3::from(HOOK_M)), turn))
 }
 
 /// The cap before the peg, `beside` metres to its side, held by the visor: the opening to
@@ -40,11 +40,11 @@ fn before_the_peg(object: &Object, beside: f64) -> (World, f64) {
     let front = hem.iter().map(|v| vertices[*v]).max_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
     // How far what is nearest to the wall lies nearer than the front of the hem.
     let ahead = front.z - vertices.iter().map(|v| v.z).fold(f64::INFINITY, f64::min);
-    let axis = hook.pose.rotation * Hook::axis();
-    let far = hook.pose * Hook::tip() + axis * (BEFORE_M + ahead / axis.dot(&out));
+    let axis = hook.pose.rotation * Peg::axis();
+    let far = hook.tip() + axis * (BEFORE_M + ahead / axis.dot(&out));
     let at = far + Vector3::z() * CLEARANCE_M + Vector3::x() * beside;
     let placed = Pose::from_parts(Translation3::from(at - rotation * front.coords), rotation);
-    let slide = BEFORE_M + PEG_LENGTH_M - WALL_GAP_M / axis.dot(&out);
+    let slide = BEFORE_M + hook.peg.length_m() - WALL_GAP_M / axis.dot(&out);
     let surroundings = Surroundings { table: true, hook: Some(hook), ..Surroundings::default() };
     let settings = Settings { gravity: Vector3::zeros(), ..Settings::default() };
     let mut world = World::new(object, &placed, surroundings, settings);
@@ -72,7 +72,7 @@ fn carry(world: &mut World, way: &Vector3<f64>, seconds: f64) {
 /// Slides the cap onto the peg, or past it, lets it go, and shakes it.
 fn hang(object: &Object, beside: f64) -> World {
     let (mut world, slide) = before_the_peg(object, beside);
-    let axis = hook().pose.rotation * Hook::axis();
+    let axis = hook().pose.rotation * Peg::axis();
     carry(&mut world, &(-axis * slide), 1.5);
     carry(&mut world, &(Vector3::z() * -CLEARANCE_M), 0.5);
     world.open(0.06);
@@ -101,7 +101,7 @@ fn a_cap_hangs_by_its_front_panel_and_stands_a_shake() {
         let lowest = world.vertices().iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
         assert!(lowest > 0.1, "{name}: its lowest point is {lowest} m over the table");
         let centre = world.centre_of_mass();
-        let tip = hook().pose * Hook::tip();
+        let tip = hook().tip();
         assert!(centre.z < tip.z && (centre - tip).norm() < 0.15, "{name}: at {centre}");
         let into_wall = world.vertices().iter().map(|p| p.y - HOOK_M[1]).fold(f64::MIN, f64::max);
         assert!(into_wall < 1e-3, "{name}: {into_wall} m in the wall");

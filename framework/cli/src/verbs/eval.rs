@@ -1,5 +1,7 @@
 //! `eval`: many attempts, their rates and their reasons.
 
+mod placed;
+
 use crate::args::EvalSkillArgs;
 use crate::kept::Kept;
 use crate::rate::Rate;
@@ -7,6 +9,7 @@ use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
 use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
+use placed::Placed;
 use rayon::prelude::*;
 use seeone_runtime::run::{Hooks, Outcome};
 use serde::Serialize;
@@ -23,18 +26,11 @@ struct Report {
     tries: u64,
     grasped: Rate,
     grasped_at_first_try: Rate,
-    worn_within_005_d: Rate,
-    worn_within_01_d: Rate,
-    worn_within_02_d: Rate,
-    worn_properly: Rate,
-    mean_error_m_of_worn_within_02_d: Option<f64>,
+    #[serde(flatten)]
+    placed: Placed,
     failures: BTreeMap<String, u64>,
     attempts: Vec<Outcome>,
 }
-
-/// A cap is worn properly when, besides its error, its tilt and yaw are below these.
-const PROPER_TILT_DEG: f64 = 10.0;
-const PROPER_YAW_DEG: f64 = 15.0;
 
 /// Makes all attempts and prints the table.
 ///
@@ -80,20 +76,9 @@ pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
 }
 
 fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
-    let worn = |outcome: &Outcome, tolerance_d: f64| {
-        let near = outcome.error_d.is_some_and(|e| e < tolerance_d);
-        outcome.grasped == Some(true) && outcome.failed_at.is_none() && near
-    };
-    let properly = |outcome: &Outcome| {
-        worn(outcome, 0.1)
-            && outcome.tilt_deg.is_some_and(|t| t < PROPER_TILT_DEG)
-            && outcome.yaw_deg.is_some_and(|y| y.abs() < PROPER_YAW_DEG)
-    };
-    let errors: Vec<f64> =
-        attempts.iter().filter(|o| worn(o, 0.2)).filter_map(|o| o.error_m).collect();
-    let mean = (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64);
+    let measure = &workcell.skill.measure;
     let mut failures = BTreeMap::new();
-    for outcome in attempts.iter().filter(|o| !worn(o, 0.2)) {
+    for outcome in attempts.iter().filter(|outcome| !Placed::counts(measure, outcome)) {
         let stage = outcome.failed_at.as_deref().unwrap_or("placed");
         *failures.entry(stage.to_owned()).or_insert(0) += 1;
     }
@@ -108,11 +93,7 @@ fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> 
         grasped_at_first_try: Rate::of(
             attempts.iter().map(|o| o.grasped == Some(true) && o.tries == 1),
         ),
-        worn_within_005_d: Rate::of(attempts.iter().map(|o| worn(o, 0.05))),
-        worn_within_01_d: Rate::of(attempts.iter().map(|o| worn(o, 0.1))),
-        worn_within_02_d: Rate::of(attempts.iter().map(|o| worn(o, 0.2))),
-        worn_properly: Rate::of(attempts.iter().map(properly)),
-        mean_error_m_of_worn_within_02_d: mean,
+        placed: Placed::of(measure, &attempts),
         failures,
         attempts,
     }
@@ -129,21 +110,12 @@ fn table(report: &Report) -> Result<()> {
         ));
     }
     console::answer(&format!("{} on {} ({})", report.skill, report.objects, report.robot))?;
-    for (name, rate) in [
-        ("grasped", &report.grasped),
-        ("at the first try", &report.grasped_at_first_try),
-        ("worn within 0.2 d", &report.worn_within_02_d),
-        ("worn within 0.1 d", &report.worn_within_01_d),
-        ("worn within 0.05 d", &report.worn_within_005_d),
-        ("worn properly", &report.worn_properly),
-    ] {
-        console::answer(&format!("  {name:<20} {}", rate.text()))?;
-    }
-    if let Some(mean) = report.mean_error_m_of_worn_within_02_d {
-        console::answer(&format!(
-            "  mean error           {:.1} mm (worn within 0.2 d)",
-            mean * 1e3
-        ))?;
+    let taken = [
+        ("grasped", report.grasped.text()),
+        ("at the first try", report.grasped_at_first_try.text()),
+    ];
+    for (name, text) in taken.into_iter().chain(report.placed.rows()) {
+        console::answer(&format!("  {name:<20} {text}"))?;
     }
     for (stage, count) in &report.failures {
         console::answer(&format!("  failed at {stage:<10} {count}"))?;

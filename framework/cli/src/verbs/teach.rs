@@ -1,7 +1,9 @@
 //! `teach`: a scripted expert, which knows the true mesh, shows a skill once in the
 //! simulated cell. What is kept is what any demonstration is: one cloud and key poses.
 
-use crate::args::TeachArgs;
+mod hanging;
+
+use crate::args::{Shown, TeachArgs};
 use crate::builtin;
 use crate::faults::Faults;
 use crate::simulated::SimulatedCell;
@@ -10,13 +12,14 @@ use anyhow::{Context, Result, anyhow};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use seeone_core::formats::ply::{self, Encoding};
 use seeone_core::frames::write_whole;
-use seeone_core::{Cloud, Pose};
+use seeone_core::{Cloud, Diagnostic, Pose};
 use seeone_plugin::{
     GripperCommand, Judge, KeyPose, Kind, Measure, MotionOutcome, MotionTask, Program, Setup,
 };
 use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage};
 use seeone_runtime::plugins::configuration;
 use seeone_runtime::run::{Acted, Execution};
+use seeone_sim::cell::Cell;
 use seeone_sim::expert::VisorGrasp;
 use std::collections::BTreeMap;
 use std::fs;
@@ -79,8 +82,11 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let mut arm = registry.robot.build(&robot_file.plugin, &setup(Kind::Robot))?;
     let observation = camera.observe()?;
 
-    let stages = stages(&cell, &scene)?;
-    let key_poses: Vec<KeyPose> = stages.iter().map(key_pose).collect();
+    let lesson = match args.show {
+        Shown::Wearing => wearing(&cell, &scene)?,
+        Shown::Hanging => hanging::lesson(&cell, &scene)?,
+    };
+    let key_poses: Vec<KeyPose> = lesson.stages.iter().map(key_pose).collect();
     let start = arm.state()?.joints;
     let obstacles = scene.obstacles();
     let task =
@@ -112,8 +118,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         return Ok(Ending::Failure);
     }
     let grasped = acted.grasped == Some(true);
-    let measure = Measure::Worn { tolerance_d: TOLERANCE_D };
-    let verdict = judge.judge(measure, grasped)?;
+    let verdict = judge.judge(&lesson.measure, grasped)?;
     console::tell(&format!("shown with {}: {}", object.name(), verdict.reason));
     if !verdict.success {
         console::tell("the demonstration failed; nothing was written; try another --seed");
@@ -122,13 +127,13 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let skill = Skill {
         name: name.to_owned(),
         category: object.category().to_owned(),
-        summary: "Pick a cap from the table and put it on a head.".into(),
+        summary: lesson.summary.into(),
         demonstration: Demonstration {
             cloud: args.skill.with_extension("").join("demonstration.ply"),
             camera_position: observation.camera_position,
-            frames: BTreeMap::from([("head".to_owned(), scene.head.pose)]),
+            frames: lesson.frames,
         },
-        stages,
+        stages: lesson.stages,
         methods: BTreeMap::from([
             (Kind::Perception, "nst".to_owned()),
             (Kind::Encoding, "nse".to_owned()),
@@ -137,29 +142,75 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
             (Kind::Kinematics, "qp-ik".to_owned()),
             (Kind::Motion, "motion".to_owned()),
         ]),
-        measure,
+        measure: lesson.measure,
     };
     write(&skill, &args.skill, &observation.cloud)?;
     Ok(Ending::Success)
 }
 
-/// The expert's key poses: the visor's front edge as it truly lies, and where that edge is
-/// on the worn cap.
-fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
-    let (object, now) = {
-        let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
-        (cell.object().clone(), cell.vertices().to_vec())
-    };
-    let grasp = VisorGrasp::of(&object, PITCH_DEG.to_radians())
+/// What the expert shows.
+struct Lesson {
+    summary: &'static str,
+    frames: BTreeMap<String, Pose>,
+    stages: Vec<Stage>,
+    measure: Measure,
+}
+
+/// The visor's front edge, by which the expert takes every cap, and the cell as it is now.
+fn grasp(cell: &SimulatedCell) -> Result<(VisorGrasp, Cell)> {
+    let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
+    let object = cell.object();
+    let grasp = VisorGrasp::of(object, PITCH_DEG.to_radians())
         .ok_or_else(|| anyhow!("{} has no visor to take it by", object.name()))?;
-    let taken = grasp.tool_on(&now);
-    let worn = grasp.tool_on(&cell.worn_vertices());
-    let head = scene.head.pose;
+    Ok((grasp, cell.clone()))
+}
+
+/// Wearing: the visor's front edge as it truly lies, and where that edge is on the worn cap.
+fn wearing(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
+    let head = scene.head().ok_or_else(|| missing(scene, "head"))?.pose;
+    let (grasp, now) = grasp(cell)?;
+    let worn = grasp.tool_on(&cell.worn_vertices()?);
     let over = |(height_m, nose_up_deg): (f64, f64)| {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), nose_up_deg.to_radians());
         head * Pose::from_parts(Translation3::new(0.0, 0.0, height_m), turn) * head.inverse() * worn
     };
-    let stage = |name: &str, relative_to: RelativeTo, gripper_pose: Pose| Stage {
+    let on_head = |name, place| stage(name, RelativeTo::Frame("head".to_owned()), over(place));
+    Ok(Lesson {
+        summary: "Pick a cap from the table and put it on a head.",
+        frames: BTreeMap::from([("head".to_owned(), head)]),
+        stages: vec![
+            pick(grasp.tool_on(now.vertices())),
+            on_head("middle", ARRIVE),
+            on_head("lower", LEVEL),
+            Stage {
+                until_contact_n: Some(CONTACT_N),
+                gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
+                retreat_m: 0.15,
+                ..on_head("release", LOWEST)
+            },
+        ],
+        measure: Measure::Worn { tolerance_d: TOLERANCE_D },
+    })
+}
+
+fn missing(scene: &Scene, what: &str) -> Diagnostic {
+    Diagnostic::new("M005", format!("scene {:?} has no {what}", scene.name))
+}
+
+/// Taking the object from the table.
+fn pick(taken: Pose) -> Stage {
+    Stage {
+        approach_m: 0.10,
+        gripper: Some(GripperCommand::Close { force_n: GRIP_N }),
+        lift_m: 0.25,
+        turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,
+        ..stage("pick", RelativeTo::Object, taken)
+    }
+}
+
+/// A pose that is passed through.
+fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
+    Stage {
         name: name.to_owned(),
         relative_to,
         gripper_pose,
@@ -170,25 +221,7 @@ fn stages(cell: &SimulatedCell, scene: &Scene) -> Result<Vec<Stage>> {
         retreat_m: 0.0,
         lift_m: 0.0,
         turn_about_closing_deg: 0.0,
-    };
-    let on_head = || RelativeTo::Frame("head".to_owned());
-    Ok(vec![
-        Stage {
-            approach_m: 0.10,
-            gripper: Some(GripperCommand::Close { force_n: GRIP_N }),
-            lift_m: 0.25,
-            turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,
-            ..stage("pick", RelativeTo::Object, taken)
-        },
-        stage("middle", on_head(), over(ARRIVE)),
-        stage("lower", on_head(), over(LEVEL)),
-        Stage {
-            until_contact_n: Some(CONTACT_N),
-            gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
-            retreat_m: 0.15,
-            ..stage("release", on_head(), over(LOWEST))
-        },
-    ])
+    }
 }
 
 fn key_pose(stage: &Stage) -> KeyPose {

@@ -2,7 +2,9 @@
 
 use super::solvers::{FakeEncoding, FakeKinematics, FakeMotion, FakePerception, FakeTransfer};
 use super::{LeastSquares, canonical_cloud};
-use crate::files::{Demonstration, Drop, Head, RelativeTo, RobotFile, Scene, Skill, Stage, Table};
+use crate::files::{
+    Demonstration, Drop, Head, RelativeTo, RobotFile, Scene, Skill, Stage, Table, Targets,
+};
 use crate::methods::Methods;
 use crate::plugins::Plugins;
 use crate::registry::Registry;
@@ -115,7 +117,7 @@ impl Judge for FakeJudge {
         Ok(true)
     }
 
-    fn judge(&mut self, _: Measure, grasped: bool) -> Result<Verdict, PluginError> {
+    fn judge(&mut self, _: &Measure, grasped: bool) -> Result<Verdict, PluginError> {
         broken(&self.0, "judge")?;
         let success = grasped && self.1.load(Ordering::Relaxed) && !self.0.spoils;
         Ok(Verdict {
@@ -261,7 +263,8 @@ fn scene(head: Pose) -> Scene {
         name: "head".into(),
         object: "fake-cap".into(),
         table: Table { height_m: 0.0, soft_m: 0.03, friction: 0.6 },
-        head: Head { pose: head, size: HeadSize::MEDIUM, friction: 0.5 },
+        targets: Targets::Head(Head { pose: head, size: HeadSize::MEDIUM, friction: 0.5 }),
+        places: BTreeMap::new(),
         camera_plugin: None,
         camera_cloud: None,
         camera: Pose::identity(),

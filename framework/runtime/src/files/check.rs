@@ -47,7 +47,7 @@ pub fn family_of(path: &Path) -> Result<Family, Vec<Diagnostic>> {
         Some(Family::Task)
     } else if has(&["urdf", "plugin", "home_rad"]) {
         Some(Family::Robot)
-    } else if has(&["table", "head", "drop"]) {
+    } else if has(&["table", "head", "hook", "drop"]) {
         Some(Family::Scene)
     } else {
         None

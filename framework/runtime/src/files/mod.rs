@@ -8,7 +8,9 @@
 mod check;
 mod codes;
 mod exactly;
+mod hook;
 mod locate;
+mod measure;
 mod obstacle;
 mod pose;
 mod resolver;
@@ -29,7 +31,7 @@ pub use codes::Family;
 pub use locate::locate;
 pub use resolver::is_name;
 pub use robot_file::RobotFile;
-pub use scene::{Drop, Head, Scene, Table};
+pub use scene::{Drop, Head, Hook, Scene, Table, Targets};
 pub use schema::schema;
 pub use skill::{Demonstration, RelativeTo, Skill, Stage};
 pub use task::{SkillUse, Task, TaskStep, Work};

@@ -1,10 +1,12 @@
 //! A scene: what stands where, and which object lies on the table.
 
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::{Point2, Point3, Translation3, Vector2, Vector3};
+use seeone_core::hook::PEG_BALL_RADIUS_M;
 use seeone_core::pose::PoseFields;
-use seeone_core::robot::Solid;
-use seeone_core::{HeadSize, Intrinsics, Pose};
+use seeone_core::robot::{Shape, Solid};
+use seeone_core::{HeadSize, Intrinsics, Peg, Pose};
 use seeone_plugin::motion::Obstacle;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The table, whose top is a soft mat.
@@ -29,6 +31,29 @@ pub struct Head {
     pub friction: f64,
 }
 
+/// A hook: a wooden peg on an upright wall, which reaches as far as anything does. Its
+/// frame: the origin where the peg leaves the wall, y out of the wall, z up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hook {
+    /// Its frame in `world`.
+    pub pose: Pose,
+    /// How long it is.
+    pub peg: Peg,
+    /// Coulomb friction of peg and wall.
+    pub friction: f64,
+}
+
+/// What objects are brought to: at least one thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Targets {
+    /// A head alone.
+    Head(Head),
+    /// A hook alone.
+    Hook(Hook),
+    /// Both.
+    Both(Head, Hook),
+}
+
 /// Where objects are dropped and looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drop {
@@ -49,8 +74,11 @@ pub struct Scene {
     pub object: String,
     /// The table.
     pub table: Table,
-    /// The head.
-    pub head: Head,
+    /// What objects are brought to.
+    pub targets: Targets,
+    /// Further frames by name, e.g. where a person takes things; none is `object`, `head` or
+    /// `hook`.
+    pub places: BTreeMap<String, Pose>,
     /// The camera plugin, where the scene asks for one.
     pub camera_plugin: Option<String>,
     /// A recorded cloud, for a camera plugin that shows one.
@@ -65,25 +93,62 @@ pub struct Scene {
     pub standing: Vec<Solid>,
 }
 
+/// Half the edges of the box that stands for a wall, metres: beyond what any arm reaches.
+const WALL_HALF_M: Vector3<f64> = Vector3::new(3.0, 0.05, 3.0);
+
+impl Hook {
+    /// The peg, as thick as its end ball, and the wall behind it in `world`.
+    fn solids(&self) -> [Solid; 2] {
+        let peg = Shape::Capsule { radius_m: PEG_BALL_RADIUS_M, length_m: self.peg.length_m() };
+        let wall = Shape::Box { half_m: WALL_HALF_M };
+        let behind = Translation3::new(0.0, -WALL_HALF_M.y, 0.0);
+        let solid = |part: &str, shape, pose| Solid { part: part.into(), shape, pose };
+        [
+            solid("peg", peg, self.pose * Peg::along(self.peg.length_m() / 2.0)),
+            solid("wall", wall, self.pose * behind),
+        ]
+    }
+}
+
 impl Scene {
-    /// The pose in `world` of a frame that a skill may refer to.
+    /// The head, where there is one.
+    pub fn head(&self) -> Option<&Head> {
+        match &self.targets {
+            Targets::Head(head) | Targets::Both(head, _) => Some(head),
+            Targets::Hook(_) => None,
+        }
+    }
+
+    /// The hook, where there is one.
+    pub fn hook(&self) -> Option<&Hook> {
+        match &self.targets {
+            Targets::Hook(hook) | Targets::Both(_, hook) => Some(hook),
+            Targets::Head(_) => None,
+        }
+    }
+
+    /// The pose in `world` of a frame that a skill may refer to: `head`, `hook`, or a place
+    /// that the scene names.
     pub fn frame(&self, name: &str) -> Option<Pose> {
-        (name == "head").then_some(self.head.pose)
+        match name {
+            "head" => self.head().map(|head| head.pose),
+            "hook" => self.hook().map(|hook| hook.pose),
+            _ => self.places.get(name).copied(),
+        }
     }
 
     /// What the arm must not touch.
     pub fn obstacles(&self) -> Vec<Obstacle> {
-        let mut obstacles = vec![
-            Obstacle::Table { height_m: self.table.height_m, soft_m: self.table.soft_m },
-            Obstacle::Ellipsoid {
-                name: "head".into(),
-                centre: Point3::from(self.head.pose.translation.vector),
-                rotation: self.head.pose.rotation,
-                semi_axes_m: self.head.size.semi_axes_m(),
-            },
-        ];
-        obstacles.extend(self.standing.iter().cloned().map(Obstacle::Solid));
-        obstacles
+        let Table { height_m, soft_m, .. } = self.table;
+        let head = self.head().map(|head| Obstacle::Ellipsoid {
+            name: "head".into(),
+            centre: Point3::from(head.pose.translation.vector),
+            rotation: head.pose.rotation,
+            semi_axes_m: head.size.semi_axes_m(),
+        });
+        let hook = self.hook().into_iter().flat_map(Hook::solids);
+        let solids = hook.chain(self.standing.iter().cloned()).map(Obstacle::Solid);
+        [Obstacle::Table { height_m, soft_m }].into_iter().chain(head).chain(solids).collect()
     }
 
     /// The table of configuration from which the camera plugin is built: `pose`,

@@ -2,18 +2,20 @@
 
 use super::codes::{Family, Fault};
 use super::exactly::Exactly;
+use super::hook::{RawHook, hook};
 use super::obstacle::{RawObstacle, obstacle};
 use super::pose::{RawIntrinsics, RawPose};
 use super::resolver::Resolver;
 use super::source::Source;
 use super::spanned::Spanned;
-use super::{Drop, Head, KnownMethods, Scene, Table};
+use super::{Drop, Head, Hook, KnownMethods, Scene, Table, Targets};
 use nalgebra::{Point2, Vector2};
 use schemars::JsonSchema;
 use seeone_core::head::SEMI_AXIS_M;
-use seeone_core::{Diagnostic, HeadSize, Intrinsics};
+use seeone_core::{Diagnostic, HeadSize, Intrinsics, Peg, Pose};
 use seeone_plugin::Kind;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -32,8 +34,13 @@ pub(super) struct RawScene {
     object: Spanned<String>,
     /// The table.
     table: RawTable,
-    /// The head: z up, +y where the face looks.
-    head: RawHead,
+    /// The head: z up, +y where the face looks. A scene has a head, a hook or both.
+    head: Option<RawHead>,
+    /// The hook: a peg on a wall; z up, +y out of the wall.
+    hook: Option<RawHook>,
+    /// Further places by name, that skills may refer to.
+    #[serde(default)]
+    frames: BTreeMap<Spanned<String>, Spanned<RawPose>>,
     /// The depth camera.
     camera: RawCamera,
     /// Where objects are dropped and looked for.
@@ -119,19 +126,21 @@ impl Scene {
         let raw: RawScene = source.parse()?;
         let mut resolver = Resolver::new(&source);
         let height = raw.table.height_m.as_ref();
+        let table = Table {
+            height_m: resolver.number_or("height_m", height, 0.0, -FARTHEST_M..=FARTHEST_M),
+            soft_m: resolver.number_or("soft_m", raw.table.soft_m.as_ref(), SOFT_M, 0.0..=0.2),
+            friction: resolver.number("friction", &raw.table.friction, 0.0..=2.0),
+        };
+        let drop = drop_zone(&mut resolver, &raw.drop);
+        let head = raw.head.as_ref().map(|raw| head(&mut resolver, raw));
+        let hook = raw.hook.as_ref().map(|raw| hook(&mut resolver, raw, &drop, table.height_m));
+        let targets = targets(&mut resolver, head, hook);
         let scene = Scene {
             name: resolver.name("name", &raw.name),
             object: resolver.name("object", &raw.object),
-            table: Table {
-                height_m: resolver.number_or("height_m", height, 0.0, -FARTHEST_M..=FARTHEST_M),
-                soft_m: resolver.number_or("soft_m", raw.table.soft_m.as_ref(), SOFT_M, 0.0..=0.2),
-                friction: resolver.number("friction", &raw.table.friction, 0.0..=2.0),
-            },
-            head: Head {
-                pose: resolver.pose("pose", &raw.head.pose),
-                size: head_size(&mut resolver, &raw.head),
-                friction: resolver.number("friction", &raw.head.friction, 0.0..=2.0),
-            },
+            table,
+            targets,
+            places: places(&mut resolver, &raw.frames),
             camera_plugin: camera_plugin(&mut resolver, raw.camera.plugin.as_ref(), known),
             camera_cloud: raw.camera.cloud.as_ref().map(|cloud| {
                 let path = resolver.file("cloud", cloud);
@@ -140,10 +149,46 @@ impl Scene {
             }),
             camera: resolver.pose("pose", &raw.camera.pose),
             intrinsics: intrinsics(&mut resolver, &raw.camera.intrinsics),
-            drop: drop_zone(&mut resolver, &raw.drop),
+            drop,
             standing: raw.obstacle.iter().map(|raw| obstacle(&mut resolver, raw)).collect(),
         };
         resolver.finish(scene)
+    }
+}
+
+fn targets(resolver: &mut Resolver, head: Option<Head>, hook: Option<Hook>) -> Targets {
+    match (head, hook) {
+        (Some(head), None) => Targets::Head(head),
+        (None, Some(hook)) => Targets::Hook(hook),
+        (Some(head), Some(hook)) => Targets::Both(head, hook),
+        (None, None) => {
+            let cause = "the scene has neither a [head] nor a [hook]";
+            resolver.fault(Fault::MissingKey, 0..0, cause);
+            Targets::Hook(Hook { pose: Pose::identity(), peg: Peg::COAT, friction: 0.0 })
+        }
+    }
+}
+
+fn places(
+    resolver: &mut Resolver,
+    raw: &BTreeMap<Spanned<String>, Spanned<RawPose>>,
+) -> BTreeMap<String, Pose> {
+    let mut places = BTreeMap::new();
+    for (name, pose) in raw {
+        if ["object", "head", "hook"].contains(&name.get_ref().as_str()) {
+            let cause = format!("{:?} is no name for a place: it means another", name.get_ref());
+            resolver.fault(Fault::Name, name.span(), cause);
+        }
+        places.insert(resolver.name("frames", name), resolver.pose("frames", pose));
+    }
+    places
+}
+
+fn head(resolver: &mut Resolver, raw: &RawHead) -> Head {
+    Head {
+        pose: resolver.pose("pose", &raw.pose),
+        size: head_size(resolver, raw),
+        friction: resolver.number("friction", &raw.friction, 0.0..=2.0),
     }
 }
 

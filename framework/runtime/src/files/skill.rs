@@ -73,6 +73,23 @@ pub struct Skill {
     pub measure: Measure,
 }
 
+impl Skill {
+    /// The frames that a scene must have: those that stages move with, and the one by which
+    /// success is measured. A frame may come more than once.
+    pub fn frames(&self) -> impl Iterator<Item = &str> {
+        let measured = match &self.measure {
+            Measure::Worn { .. } => "head",
+            Measure::Hung => "hook",
+            Measure::Held { frame, .. } => frame,
+        };
+        let moved_with = self.stages.iter().filter_map(|stage| match &stage.relative_to {
+            RelativeTo::Frame(name) => Some(name.as_str()),
+            RelativeTo::Object => None,
+        });
+        moved_with.chain([measured])
+    }
+}
+
 impl Stage {
     /// Opening while approaching when the file does not say it, metres.
     pub const OPENING_M: f64 = 0.03;

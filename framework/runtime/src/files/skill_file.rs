@@ -2,6 +2,7 @@
 
 use super::codes::{Family, Fault};
 use super::exactly::Exactly;
+use super::measure::{RawSuccess, measure};
 use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
@@ -10,7 +11,7 @@ use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
 use nalgebra::Point3;
 use schemars::JsonSchema;
 use seeone_core::Diagnostic;
-use seeone_plugin::{GripperCommand, Kind, Measure};
+use seeone_plugin::{GripperCommand, Kind};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -103,17 +104,6 @@ struct RawGripper {
     open_m: Option<Spanned<f64>>,
 }
 
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "success")]
-struct RawSuccess {
-    /// What is measured: `worn`.
-    measure: Spanned<String>,
-    /// The largest error, as a share of the object's diameter.
-    #[schemars(range(min = 1e-3, max = 1.0))]
-    tolerance_d: Spanned<f64>,
-}
-
 /// The longest straight line a stage may ask for, metres.
 const LONGEST_LINE_M: f64 = 0.5;
 /// The widest gripper opening a stage may ask for, metres.
@@ -141,9 +131,9 @@ impl Skill {
             category: resolver.name("category", &raw.category),
             summary: raw.summary,
             stages: stages(&mut resolver, &raw.stage, &demonstration),
-            demonstration,
             methods: methods(&mut resolver, &raw.methods, known),
-            measure: measure(&mut resolver, &raw.success),
+            measure: measure(&mut resolver, &raw.success, &demonstration),
+            demonstration,
         };
         resolver.finish(skill)
     }
@@ -232,17 +222,27 @@ fn relative_to(
     raw: &Spanned<String>,
     demonstration: &Demonstration,
 ) -> RelativeTo {
-    let name = raw.get_ref();
-    if name == "object" {
+    if raw.get_ref() == "object" {
         return RelativeTo::Object;
     }
+    RelativeTo::Frame(frame_of(resolver, raw, demonstration, ["object"]))
+}
+
+/// The name of a frame that the demonstration has; `others` could have been meant, too.
+pub(super) fn frame_of<const N: usize>(
+    resolver: &mut Resolver,
+    raw: &Spanned<String>,
+    demonstration: &Demonstration,
+    others: [&str; N],
+) -> String {
+    let name = raw.get_ref();
     if !demonstration.frames.contains_key(name) {
-        let known = demonstration.frames.keys().map(String::as_str).chain(["object"]);
+        let known = demonstration.frames.keys().map(String::as_str).chain(others);
         let cause = format!("the demonstration has no frame {name:?}");
         let fault = resolver.source.fault(Fault::Reference, raw.span(), cause);
         resolver.note(fault.suggest(name, known));
     }
-    RelativeTo::Frame(name.clone())
+    name.clone()
 }
 
 fn command(resolver: &mut Resolver, raw: &Spanned<RawGripper>) -> Option<GripperCommand> {
@@ -287,14 +287,4 @@ pub(super) fn methods(
         methods.insert(kind, name.get_ref().clone());
     }
     methods
-}
-
-fn measure(resolver: &mut Resolver, raw: &RawSuccess) -> Measure {
-    let name = raw.measure.get_ref();
-    if name != "worn" {
-        let cause = format!("there is no measure {name:?}");
-        let fault = resolver.source.fault(Fault::Reference, raw.measure.span(), cause);
-        resolver.note(fault.suggest(name, ["worn"]));
-    }
-    Measure::Worn { tolerance_d: resolver.number("tolerance_d", &raw.tolerance_d, 1e-3..=1.0) }
 }

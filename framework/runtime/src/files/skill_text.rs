@@ -37,10 +37,21 @@ impl Skill {
                 line(&mut text, kind.name(), quoted(name));
             }
         }
-        let Measure::Worn { tolerance_d } = self.measure;
-        text.push_str("\n[success]\nmeasure = \"worn\"\n");
-        line(&mut text, "tolerance_d", number(tolerance_d));
+        success_text(&mut text, &self.measure);
         Ok(text)
+    }
+}
+
+fn success_text(text: &mut String, measure: &Measure) {
+    text.push_str("\n[success]\n");
+    line(text, "measure", quoted(measure.name()));
+    match measure {
+        Measure::Worn { tolerance_d } => line(text, "tolerance_d", number(*tolerance_d)),
+        Measure::Hung => {}
+        Measure::Held { frame, within_m } => {
+            line(text, "at", quoted(frame));
+            line(text, "within_m", number(*within_m));
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::*;
 use nalgebra::{Point3, Vector3};
 use seeone_core::formats::ply::{Encoding, write_cloud};
 use seeone_core::random::{generator, uniform};
-use seeone_core::{Cloud, Diagnostic, HeadSize, Pose};
+use seeone_core::{Cloud, Diagnostic, HeadSize, Peg, Pose};
 use seeone_plugin::{GripperCommand, Measure};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -133,13 +133,74 @@ fn a_scene_is_read_and_tells_frames_and_obstacles() {
     assert_eq!(scene.frame("head").unwrap().translation.vector, Vector3::new(0.35, 0.4, 0.28));
     assert_eq!(scene.frame("hook"), None);
     assert_eq!(scene.obstacles().len(), 2);
-    assert_eq!(scene.head.size, HeadSize::MEDIUM);
+    assert_eq!(scene.head().unwrap().size, HeadSize::MEDIUM);
     let large = SCENE.replace("semi_axes_m = [0.077, 0.099, 0.110]", "size = \"large\"");
     let scene = Scene::read(&written(&folder, &large), &known()).unwrap();
-    assert_eq!(scene.head.size, HeadSize::LARGE);
+    assert_eq!(scene.head().unwrap().size, HeadSize::LARGE);
     let table = scene.camera_table();
     assert_eq!(table["intrinsics"]["width"].as_integer(), Some(640));
     assert_eq!(table["crop"]["floor_m"].as_float(), Some(0.0));
+}
+
+#[test]
+fn a_scene_has_a_head_or_a_hook_or_both() {
+    let folder = folder();
+    let hook =
+        "[hook]\npose = { xyz_m = [0.35, 0.6, 0.3], quat_xyzw = [0, 0, 1, 0] }\nfriction = 0.3\n";
+    let (before, rest) = SCENE.split_once("[head]").unwrap();
+    let (head, after) = rest.split_once("[camera]").unwrap();
+    let with = |targets: &str| format!("{before}{targets}[camera]{after}");
+    let alone = Scene::read(&written(&folder, &with(hook)), &known()).unwrap();
+    assert_eq!((alone.head(), alone.frame("head")), (None, None));
+    assert_eq!(alone.hook().unwrap().peg, Peg::COAT);
+    assert_eq!(alone.frame("hook").unwrap().translation.vector, Vector3::new(0.35, 0.6, 0.3));
+    // Table, peg and wall.
+    assert_eq!(alone.obstacles().len(), 3);
+    let both = format!("[head]{head}{hook}length_m = 0.12\n[frames]\n")
+        + "person = { xyz_m = [0.6, 0.3, 0.4], quat_xyzw = [0, 0, 0, 1] }\n";
+    let both = Scene::read(&written(&folder, &with(&both)), &known()).unwrap();
+    assert!(both.head().is_some() && both.obstacles().len() == 4);
+    assert_eq!(both.hook().unwrap().peg, Peg::of_length(0.12).unwrap());
+    assert_eq!(both.frame("person").unwrap().translation.vector, Vector3::new(0.6, 0.3, 0.4));
+    assert_eq!(
+        told(&folder, &with("")),
+        ["error[C011]: a.toml:1:1: the scene has neither a [head] nor a [hook]"]
+    );
+}
+
+#[test]
+fn every_measure_survives_writing_with_its_own_keys_alone() {
+    let folder = folder();
+    let with = |success: &str| {
+        let (before, _) = SKILL.split_once("measure =").unwrap();
+        format!("{before}{success}\n")
+    };
+    let held = Measure::Held { frame: "head".into(), within_m: 0.05 };
+    for (success, measure) in [
+        ("measure = \"hung\"", Measure::Hung),
+        ("measure = \"held\"\nat = \"head\"\nwithin_m = 0.05", held),
+    ] {
+        let skill = Skill::read(&written(&folder, &with(success)), &known()).unwrap();
+        assert_eq!(skill.measure, measure);
+        let text = skill.to_toml(folder.path()).unwrap();
+        assert_eq!(Skill::read(&written(&folder, &text), &known()).unwrap().measure, measure);
+    }
+    for (success, code, cause) in [
+        (
+            "measure = \"hung\"\ntolerance_d = 0.1",
+            "S012",
+            "the measure \"hung\" has no tolerance_d",
+        ),
+        ("measure = \"worn\"", "S011", "the measure \"worn\" needs tolerance_d"),
+        ("measure = \"held\"\nat = \"head\"", "S011", "the measure \"held\" needs within_m"),
+        ("measure = \"held\"\nat = \"hed\"\nwithin_m = 0.1", "S024", "no frame \"hed\""),
+        ("measure = \"held\"\nat = \"head\"\nwithin_m = 2.0", "S020", "within_m = 2"),
+        ("measure = \"hang\"", "S024", "did you mean \"hung\"?"),
+    ] {
+        let told = told(&folder, &with(success));
+        let one = told.len() == 1 && told[0].contains(code) && told[0].contains(cause);
+        assert!(one, "{success}: {told:?}");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What a run is to do, whole and checked.
 
-use crate::files::{RelativeTo, Scene, Skill};
+use crate::files::{Scene, Skill};
 use crate::methods::Methods;
 use crate::record::pose;
 use bevy_ecs::component::Component;
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What a run is to do. The frames that the skill's stages name are in the scene, and the
+/// What a run is to do. The frames that the skill needs are in the scene, and the
 /// demonstration's cloud has been read.
 #[derive(Component, Clone, Debug)]
 pub struct Assignment {
@@ -71,18 +71,16 @@ impl Assignment {
         }
         let demonstration = ply::read_cloud(&skill.demonstration.cloud)?;
         let mut frames = BTreeMap::new();
-        for stage in &skill.stages {
-            if let RelativeTo::Frame(name) = &stage.relative_to {
-                let target = targets.get(name).unwrap_or(name);
-                let pose = scene.frame(target).ok_or_else(|| {
-                    let (skill, scene) = (&skill.name, &scene.name);
-                    let cause = format!(
-                        "skill {skill:?} needs the frame {target:?}, which scene {scene:?} has not"
-                    );
-                    Diagnostic::new("M005", cause)
-                })?;
-                frames.insert(name.clone(), pose);
-            }
+        for name in skill.frames() {
+            let target = targets.get(name).map_or(name, String::as_str);
+            let pose = scene.frame(target).ok_or_else(|| {
+                let (skill, scene) = (&skill.name, &scene.name);
+                let cause = format!(
+                    "skill {skill:?} needs the frame {target:?}, which scene {scene:?} has not"
+                );
+                Diagnostic::new("M005", cause)
+            })?;
+            frames.insert(name.to_owned(), pose);
         }
         Ok(Self {
             object: scene.object.clone(),
@@ -115,7 +113,8 @@ impl Assignment {
     pub(crate) fn to_json(&self) -> Value {
         // The cloud is named by its file alone: where the files lie is not part of the run.
         let folder = self.skill.demonstration.cloud.parent().unwrap_or(Path::new(""));
-        let Scene { name, table, head, camera, drop, .. } = &self.scene;
+        let Scene { name, table, places, camera, drop, .. } = &self.scene;
+        let (head, hook) = (self.scene.head(), self.scene.hook());
         json!({
             "skill": self.skill.to_toml(folder).unwrap_or_else(|fault| fault.to_string()),
             "object": self.object,
@@ -124,9 +123,13 @@ impl Assignment {
                 "name": name,
                 "table_height_m": table.height_m,
                 "table_friction": table.friction,
-                "head": pose(&head.pose),
-                "head_semi_axes_m": head.size.semi_axes_m().as_slice(),
-                "head_friction": head.friction,
+                "head": head.map(|head| pose(&head.pose)),
+                "head_semi_axes_m": head.map(|head| <[f64; 3]>::from(head.size.semi_axes_m())),
+                "head_friction": head.map(|head| head.friction),
+                "hook": hook.map(|hook| pose(&hook.pose)),
+                "hook_length_m": hook.map(|hook| hook.peg.length_m()),
+                "hook_friction": hook.map(|hook| hook.friction),
+                "places": places.iter().map(|(name, place)| (name, pose(place))).collect::<BTreeMap<_, _>>(),
                 "camera": pose(camera),
                 "drop_centre_xy_m": drop.centre.coords.as_slice(),
             },

@@ -26,7 +26,7 @@ pub(super) fn judge(
         let judged = bench.step(Step::Judge, |plugins| {
             let judge = plugins.judge.as_mut().ok_or("nobody can judge this cell")?;
             let verdict =
-                judge.judge(assignment.skill.measure, grasped).map_err(|e| e.to_string())?;
+                judge.judge(&assignment.skill.measure, grasped).map_err(|e| e.to_string())?;
             if let Some(acted) = &mut acted {
                 let time_s = acted.end_s();
                 acted.object.push(Snapshot { time_s, vertices: judge.object() });

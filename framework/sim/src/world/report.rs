@@ -36,6 +36,11 @@ impl World {
         &self.surroundings
     }
 
+    /// Gravity in world, m/s2.
+    pub fn gravity(&self) -> Vector3<f64> {
+        self.settings.gravity
+    }
+
     /// Seconds since the start.
     pub fn time(&self) -> f64 {
         self.frames as f64 * FRAME_S
