@@ -73,7 +73,7 @@ fn a_skill_that_is_no_skill_is_told() {
 fn every_fault_of_a_file_is_told_at_once() {
     let bench = Bench::new();
     let first = bench.set_line(SKILL, "approach_m", "approach_m = 7.0");
-    let last = bench.set_line(SKILL, "measure", "measure = \"hung\"");
+    let last = bench.set_line(SKILL, "measure", "measure = \"hang\"");
     let places = [first, last].map(|line| format!("{}:{line}:", bench.arg(SKILL)));
     refused(
         "two faults",

@@ -7,6 +7,7 @@ use bevy_ecs::component::Component;
 use seeone_core::formats::ply;
 use seeone_core::robot::RobotModel;
 use seeone_core::{Cloud, Diagnostic, Pose};
+use seeone_plugin::Measure;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -60,7 +61,7 @@ impl Assignment {
     /// # Errors
     /// As [`Assignment::new`].
     pub fn bound(
-        skill: Skill,
+        mut skill: Skill,
         scene: Scene,
         robot: RobotModel,
         methods: Methods,
@@ -81,6 +82,11 @@ impl Assignment {
                 Diagnostic::new("M005", cause)
             })?;
             frames.insert(name.to_owned(), pose);
+        }
+        if let Measure::Held { frame, .. } = &mut skill.measure
+            && let Some(target) = targets.get(frame)
+        {
+            frame.clone_from(target);
         }
         Ok(Self {
             object: scene.object.clone(),
