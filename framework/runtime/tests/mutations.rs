@@ -10,10 +10,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sound files that are spoilt.
-const FILES: [(&str, Family); 5] = [
+const FILES: [(&str, Family); 7] = [
     ("skills/cap-wearing.toml", Family::Skill),
+    ("skills/cap-handing-over.toml", Family::Skill),
     ("skills/tasks/dress.toml", Family::Task),
     ("scenes/head.toml", Family::Scene),
+    ("scenes/hook.toml", Family::Scene),
     ("robots/ur5-ag95-sim.toml", Family::Robot),
     ("skills/tasks/every-way.toml", Family::Task),
 ];
@@ -126,7 +128,11 @@ fn a_spoilt_file_is_taken_whole_or_refused_with_a_place() {
 fn copies() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let repository = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let others = ["skills/cap-wearing/demonstration.ply", "robots/ur5-ag95.urdf"];
+    let others = [
+        "skills/cap-wearing/demonstration.ply",
+        "skills/cap-handing-over/demonstration.ply",
+        "robots/ur5-ag95.urdf",
+    ];
     for name in FILES.iter().map(|(name, _)| *name).chain(others) {
         let to = folder.path().join(name);
         fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
@@ -226,8 +232,11 @@ fn skill(skill: &Skill) {
         within(stage.turn_about_closing_deg, 0.0, 180.0);
         stage.until_contact_n.iter().for_each(|force| within(*force, 1.0, 50.0));
     }
-    let Measure::Worn { tolerance_d } = skill.measure;
-    within(tolerance_d, 1e-3, 1.0);
+    match &skill.measure {
+        Measure::Worn { tolerance_d: share } => within(*share, 1e-3, 1.0),
+        Measure::Held { within_m, .. } => within(*within_m, 1e-3, 1.0),
+        Measure::Hung => {}
+    }
 }
 
 fn task(task: &Task) {
@@ -248,11 +257,19 @@ fn step(of: &TaskStep) {
 fn scene(scene: &Scene) {
     within(scene.table.height_m, -5.0, 5.0);
     within(scene.table.soft_m, 0.0, 0.2);
-    [scene.table.friction, scene.head.friction]
-        .into_iter()
-        .for_each(|friction| within(friction, 0.0, 2.0));
-    [&scene.head.pose, &scene.camera].into_iter().for_each(pose);
-    scene.head.size.semi_axes_m().iter().for_each(|axis| within(*axis, 0.05, 0.15));
+    within(scene.table.friction, 0.0, 2.0);
+    pose(&scene.camera);
+    scene.places.values().for_each(pose);
+    if let Some(head) = scene.head() {
+        pose(&head.pose);
+        within(head.friction, 0.0, 2.0);
+        head.size.semi_axes_m().iter().for_each(|axis| within(*axis, 0.05, 0.15));
+    }
+    if let Some(hook) = scene.hook() {
+        pose(&hook.pose);
+        within(hook.friction, 0.0, 2.0);
+        within(hook.peg.length_m(), 0.06, 0.16);
+    }
     let lens = &scene.intrinsics;
     [lens.fx, lens.fy].into_iter().for_each(|focal| within(focal, 1.0, 1e5));
     [lens.cx, lens.cy].into_iter().for_each(|point| within(point, -1e5, 1e5));
