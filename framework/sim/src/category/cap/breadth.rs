@@ -7,13 +7,13 @@ use super::shape::{Range, Shape};
 pub enum Breadth {
     /// The template's own: what caps of the category look like.
     Usual,
-    /// Wider by [`MARGIN`] at both ends. Networks that were trained on these too meet the caps
+    /// Wider by 35 % at both ends. Networks that were trained on these too meet the caps
     /// of the category, and those of another hand, as something between what they know.
     Wide,
 }
 
 /// Part of a parameter's range that is added at each end.
-pub const MARGIN: f64 = 0.35;
+const MARGIN: f64 = 0.35;
 
 impl Breadth {
     /// The ranges of this breadth, from a template's own. Fabric stays what it is, and so does
