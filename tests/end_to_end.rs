@@ -367,6 +367,9 @@ fn a_skill_that_was_taught_is_sound() {
     assert_eq!(checked.status, Some(0), "{}", checked.stderr);
     let text = fs::read_to_string(&skill).expect("the skill");
     assert!(text.contains("cloud = \"shown/demonstration.ply\""), "{text}");
+    let nameless = seeone(["teach", &skill.replace("shown", "Shown_1")]);
+    assert_eq!(nameless.status, Some(2), "{}", nameless.stderr);
+    assert!(nameless.stderr.contains("error[S021]: "), "{}", nameless.stderr);
 }
 
 #[test]

@@ -356,7 +356,7 @@ pub struct DataArgs {
     pub seed: u64,
     /// A set (`train`, `wide`, `paper-40`, `validation`, `unseen`, `beanie`), a name, or a file
     /// from `objects import`; may be repeated.
-    #[arg(long, default_value = "train")]
+    #[arg(long, default_values = ["train", "wide"])]
     pub objects: Vec<String>,
     /// Frames in all, shared evenly by the objects.
     #[arg(long, default_value_t = FRAMES, value_parser = frames)]
@@ -554,7 +554,7 @@ pub enum PluginsAction {
 }
 
 /// Frames of a training set unless told otherwise.
-const FRAMES: NonZeroUsize = NonZeroUsize::new(4000).expect("not zero");
+const FRAMES: NonZeroUsize = NonZeroUsize::new(5600).expect("not zero");
 /// Views of a moment unless told otherwise: more drops teach more than more views of one.
 const VIEWS: NonZeroUsize = NonZeroUsize::new(2).expect("not zero");
 /// Most views of a moment.

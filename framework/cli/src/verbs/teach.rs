@@ -2,6 +2,7 @@
 //! simulated cell. What is kept is what any demonstration is: one cloud and key poses.
 
 mod hanging;
+mod wearing;
 
 use crate::args::{Shown, TeachArgs};
 use crate::builtin;
@@ -9,14 +10,13 @@ use crate::faults::Faults;
 use crate::simulated::SimulatedCell;
 use crate::{Ending, console, objects};
 use anyhow::{Context, Result, anyhow};
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use seeone_core::formats::ply::{self, Encoding};
 use seeone_core::frames::write_whole;
 use seeone_core::{Cloud, Diagnostic, Pose};
 use seeone_plugin::{
     GripperCommand, Judge, KeyPose, Kind, Measure, MotionOutcome, MotionTask, Program, Setup,
 };
-use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage};
+use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage, is_name};
 use seeone_runtime::plugins::configuration;
 use seeone_runtime::run::{Acted, Execution};
 use seeone_sim::cell::Cell;
@@ -30,19 +30,6 @@ const PITCH_DEG: f64 = 2.0;
 /// Grip force, newtons, of the 45 to 160 that an AG-95 has: enough to hold a visor flat
 /// between pads that come at it from above its plane.
 const GRIP_N: f64 = 140.0;
-/// Over the worn pose: height in metres, and by how many degrees the cap's nose is up. It
-/// arrives back first, ...
-const ARRIVE: (f64, f64) = (0.15, 5.0);
-/// ... is level before any cap can meet the head, ...
-const LEVEL: (f64, f64) = (0.07, 0.0);
-/// ... and is let go here at the latest: how deep a crown sits differs by 12 mm (standard
-/// deviation) from cap to cap, so the hand feels for the head. The nose is pulled down on the
-/// way: a hem that keeps its length stays where it was drawn to, and let go level, caps sit
-/// back on the head.
-const LOWEST: (f64, f64) = (-0.025, -8.0);
-/// It is let go as soon as the head bears so much, newtons: pulled on as a person would, and
-/// enough for an arm's force estimate to tell from noise.
-const CONTACT_N: f64 = 20.0;
 /// A cloud of more points is thinned to about so many.
 const CLOUD_POINTS: usize = 4096;
 /// A demonstration that ends farther from the worn state teaches nothing, share of d.
@@ -60,11 +47,12 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let robot_file = RobotFile::read(&args.robot, &known).map_err(Faults)?;
     let robot = robot_file.model()?;
     let object = objects::resolve(&args.object)?;
-    let name = args
-        .skill
-        .file_stem()
-        .and_then(|stem| stem.to_str())
-        .ok_or_else(|| anyhow!("{} has no name", args.skill.display()))?;
+    let name = args.skill.file_stem().and_then(|stem| stem.to_str());
+    let name = name.filter(|name| is_name(name)).ok_or_else(|| {
+        Diagnostic::new("S021", "a skill cannot be named as this file is")
+            .in_file(&args.skill)
+            .hint("at most 64 small letters, digits and hyphens, the first a letter")
+    })?;
 
     let cell = SimulatedCell::drop(&scene, object.clone(), args.seed)?;
     let config = configuration(&scene, &robot_file);
@@ -83,7 +71,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let observation = camera.observe()?;
 
     let lesson = match args.show {
-        Shown::Wearing => wearing(&cell, &scene)?,
+        Shown::Wearing => wearing::lesson(&cell, &scene)?,
         Shown::Hanging => hanging::lesson(&cell, &scene)?,
     };
     let key_poses: Vec<KeyPose> = lesson.stages.iter().map(key_pose).collect();
@@ -163,34 +151,6 @@ fn grasp(cell: &SimulatedCell) -> Result<(VisorGrasp, Cell)> {
     let grasp = VisorGrasp::of(object, PITCH_DEG.to_radians())
         .ok_or_else(|| anyhow!("{} has no visor to take it by", object.name()))?;
     Ok((grasp, cell.clone()))
-}
-
-/// Wearing: the visor's front edge as it truly lies, and where that edge is on the worn cap.
-fn wearing(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
-    let head = scene.head().ok_or_else(|| missing(scene, "head"))?.pose;
-    let (grasp, now) = grasp(cell)?;
-    let worn = grasp.tool_on(&cell.worn_vertices()?);
-    let over = |(height_m, nose_up_deg): (f64, f64)| {
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), nose_up_deg.to_radians());
-        head * Pose::from_parts(Translation3::new(0.0, 0.0, height_m), turn) * head.inverse() * worn
-    };
-    let on_head = |name, place| stage(name, RelativeTo::Frame("head".to_owned()), over(place));
-    Ok(Lesson {
-        summary: "Pick a cap from the table and put it on a head.",
-        frames: BTreeMap::from([("head".to_owned(), head)]),
-        stages: vec![
-            pick(grasp.tool_on(now.vertices())),
-            on_head("middle", ARRIVE),
-            on_head("lower", LEVEL),
-            Stage {
-                until_contact_n: Some(CONTACT_N),
-                gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
-                retreat_m: 0.15,
-                ..on_head("release", LOWEST)
-            },
-        ],
-        measure: Measure::Worn { tolerance_d: TOLERANCE_D },
-    })
 }
 
 fn missing(scene: &Scene, what: &str) -> Diagnostic {

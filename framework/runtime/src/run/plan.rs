@@ -16,7 +16,7 @@ use seeone_plugin::{KeyPose, MotionOutcome, MotionTask, Program};
 /// several is for all.
 const MOST_GRASPS: usize = 3;
 /// The whole retreat may be out of reach: so much of it is tried, one after the other.
-pub(super) const RETREAT_SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.2];
+pub(super) const RETREAT_SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.2, 0.1];
 
 /// What the robot shall do.
 #[derive(Component, Clone, Debug, PartialEq)]
