@@ -61,7 +61,7 @@ impl Against {
             }
             Family::Scene => {
                 let scene = Scene::read(path, known)?;
-                Ok(unknown_objects(path, &[&scene.object]))
+                Ok(unknown_objects(path, &scene.objects()))
             }
             Family::Robot => {
                 let file = RobotFile::read(path, known)?;

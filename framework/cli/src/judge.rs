@@ -74,9 +74,18 @@ impl CellJudge {
     }
 
     fn hung(&self, grasped: bool) -> Result<Verdict, PluginError> {
-        let hanging = self.cell.lock()?.hanging().map_err(PluginError::Internal)?;
-        let success = grasped && matches!(hanging, Hanging::Hung { .. });
-        Ok(verdict(grasped, success, hanging.to_string()))
+        let mut cell = self.cell.lock()?;
+        let hanging = cell.hanging().map_err(PluginError::Internal)?;
+        let (fallen, mut told) = (cell.fallen(), hanging.to_string());
+        let sound = fallen.is_empty() && !cell.met();
+        if !fallen.is_empty() {
+            told += &format!("; fallen off since: {}", fallen.join(", "));
+        }
+        if cell.met() {
+            told += "; two objects met, and contact between objects is not simulated";
+        }
+        let success = grasped && sound && matches!(hanging, Hanging::Hung { .. });
+        Ok(verdict(grasped, success, told))
     }
 
     fn held(&self, frame: &str, within_m: f64, grasped: bool) -> Result<Verdict, PluginError> {
@@ -118,7 +127,7 @@ impl Judge for CellJudge {
     fn object(&self) -> Vec<[f64; 3]> {
         self.cell
             .lock()
-            .map(|cell| cell.vertices().iter().map(|v| (*v).into()).collect())
+            .map(|cell| cell.all_vertices().map(|v| (*v).into()).collect())
             .unwrap_or_default()
     }
 }

@@ -36,6 +36,7 @@ const HEM: Color = [0.10, 0.18, 0.38];
 /// The cell at one moment.
 struct Moment {
     robot: RobotState,
+    /// The vertices of all objects, one after another.
     object: Vec<Point3<f64>>,
 }
 
@@ -53,7 +54,7 @@ impl RunPicture {
         let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
         let robot =
             RobotState { joints: workcell.robot.home().to_vec(), opening_m: cell.opening_m() };
-        Ok(Self { before: Moment { robot, object: cell.vertices().to_vec() } })
+        Ok(Self { before: Moment { robot, object: cell.all_vertices().copied().collect() } })
     }
 
     /// Draws the start, the lift, the moment before the last stage and the end of `finished`
@@ -68,17 +69,18 @@ impl RunPicture {
         finished: &Finished,
         path: &Path,
     ) -> Result<()> {
-        let (object, standing) = {
+        let (objects, standing) = {
             let cell = cell.cell.lock().map_err(|_| anyhow!("the simulated cell broke down"))?;
             let head = cell.head_mesh().map(|mesh| (mesh, SKIN));
-            let hook = cell.hook_mesh().map(|mesh| (mesh, WOOD));
-            (cell.object().clone(), head.into_iter().chain(hook).collect::<Vec<_>>())
+            let hooks = cell.hook_meshes().into_iter().map(|mesh| (mesh, WOOD));
+            let objects: Vec<Object> = cell.objects().cloned().collect();
+            (objects, head.into_iter().chain(hooks).collect::<Vec<_>>())
         };
         let mut moments = vec![self.before];
         moments.extend(moments_of(workcell, finished));
         let panels = moments
             .iter()
-            .map(|moment| panel(workcell, &object, &standing, moment))
+            .map(|moment| panel(workcell, &objects, &standing, moment))
             .collect::<Result<Vec<_>>>()?;
         write_png(&montage(&panels, 2), path)
     }
@@ -122,22 +124,33 @@ fn moment_at(acted: &Acted, time_s: f64) -> Option<Moment> {
 
 fn panel(
     workcell: &Workcell,
-    object: &Object,
+    objects: &[Object],
     standing: &[(TriangleMesh, Color)],
     moment: &Moment,
 ) -> Result<Picture> {
     let table = scenery::table();
-    let cap = object.mesh().with_vertices(moment.object.clone()).context("the object's shape")?;
+    let caps = shapes(objects, &moment.object)?;
     let arm = workcell.robot.meshes(&moment.robot.joints, moment.robot.opening_m);
-    let mut scene = vec![
-        Colored { mesh: &table, paint: Paint::Plain(MAT) },
-        Colored { mesh: &cap, paint: Paint::PerTriangle(colors(object)) },
-    ];
+    let mut scene = vec![Colored { mesh: &table, paint: Paint::Plain(MAT) }];
+    for (object, mesh) in objects.iter().zip(&caps) {
+        scene.push(Colored { mesh, paint: Paint::PerTriangle(colors(object)) });
+    }
     for (mesh, color) in standing {
         scene.push(Colored { mesh, paint: Paint::Plain(*color) });
     }
     scene.extend(arm.iter().map(|mesh| Colored { mesh, paint: Paint::Plain(ARM) }));
     Ok(render(&scene, &looking_at(&EYE, &SUBJECT), &PANEL))
+}
+
+/// The meshes of `objects` whose vertices are given one after another.
+fn shapes(objects: &[Object], vertices: &[Point3<f64>]) -> Result<Vec<TriangleMesh>> {
+    let mut rest = vertices;
+    let mut shape = |object: &Object| {
+        let (own, others) = rest.split_at_checked(object.mesh().vertices().len())?;
+        rest = others;
+        object.mesh().with_vertices(own.to_vec()).ok()
+    };
+    objects.iter().map(|object| shape(object).context("the object's shape")).collect()
 }
 
 /// The colour of every triangle of an object, by region.

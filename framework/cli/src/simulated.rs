@@ -2,6 +2,7 @@
 //! with the plugins, and read by the judge.
 
 use crate::judge::{CellJudge, Wearing};
+use crate::objects;
 use crate::shared_cell::SharedCell;
 use anyhow::{Context, Result, anyhow};
 use nalgebra::Point3;
@@ -26,11 +27,11 @@ pub struct SimulatedCell {
 }
 
 impl SimulatedCell {
-    /// Drops `object` into the scene and lets it come to rest.
+    /// Drops `object` into the scene, and whatever lies there besides, and lets all come to rest.
     ///
     /// # Errors
-    /// When there is a head on which the object cannot be worn at all, or the simulation
-    /// diverged.
+    /// When there is a head on which the object cannot be worn at all, an object beside it that
+    /// is none or finds no room, or the simulation diverged.
     pub fn drop(scene: &Scene, object: Object, seed: u64) -> Result<Self> {
         check(scene)?;
         let settings = Settings::default();
@@ -40,7 +41,7 @@ impl SimulatedCell {
         let surroundings = Surroundings {
             table: true,
             head,
-            hook: scene.hook().map(|hook| Hook { pose: hook.pose, peg: hook.peg }),
+            hooks: scene.hooks().iter().map(|hook| Hook { pose: hook.pose, peg: hook.peg }).collect(),
             frictions: Frictions {
                 table: scene.table.friction,
                 head: scene.head().map_or(standard.head, |head| head.friction),
@@ -50,8 +51,14 @@ impl SimulatedCell {
         };
         let centre = [scene.drop.centre.x, scene.drop.centre.y];
         let drop = Drop::draw(centre, &mut generator(seed, "drop"));
-        let cell = Cell::after_drop(object, &drop, surroundings, settings)
+        let mut cell = Cell::after_drop(object, &drop, surroundings, settings)
             .map_err(|fault| anyhow!(fault))?;
+        for (index, beside) in (1..).zip(&scene.beside) {
+            let object = objects::for_attempt(&beside.object, seed.wrapping_add(index))?;
+            let mut rng = generator(seed, &format!("drop-{index}"));
+            cell.drop_beside(&object, beside.centre.into(), settings, &mut rng)
+                .map_err(|fault| anyhow!(fault))?;
+        }
         Ok(Self {
             cell: Arc::new(Mutex::new(cell)),
             scene: scene.clone(),

@@ -70,6 +70,7 @@ pub trait Judge: Send {
     /// When the world cannot be judged.
     fn judge(&mut self, measure: &Measure, grasped: bool) -> Result<Verdict, PluginError>;
 
-    /// The object's vertices in `world` now, for the recording alone.
+    /// The vertices of the object, or of all objects one after another, in `world` now, for the
+    /// recording alone.
     fn object(&self) -> Vec<[f64; 3]>;
 }

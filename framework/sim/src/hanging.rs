@@ -1,6 +1,7 @@
-//! Whether an object hangs on the hook by itself.
+//! Whether an object hangs on a hook by itself.
 
 use crate::cell::Cell;
+use crate::surroundings::Hook;
 use crate::world::{FRAME_S, World};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -66,17 +67,17 @@ impl Cell {
     /// A sentence when the simulation diverged.
     pub fn hanging(&mut self) -> Result<Hanging, String> {
         let world = self.world_mut();
-        let Some(hook) = world.surroundings().hook else { return Ok(Hanging::NoHook) };
+        let Some(along) = nearest_wall(world) else { return Ok(Hanging::NoHook) };
         if world.hand_state().held_points > 0 {
             return Ok(Hanging::InHand);
         }
         world.remove_hand();
         world.settle(SETTLE_S);
-        wait(world, &(hook.pose.rotation * Vector3::x()));
+        wait(world, &along);
         world.settle(SETTLE_S);
         let still = keeps_still(world);
-        let clear_m = world.vertices().iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-        let on_peg = world.min_signed_distance_to_peg().is_some_and(|gap| gap < TOUCH_M);
+        let (clear_m, on_peg) = (world.clear_m(), world.touches_peg());
+        self.note_hung(clear_m > CLEAR_M && still && on_peg);
         self.whole()?;
         Ok(match (clear_m > CLEAR_M, still, on_peg) {
             (false, ..) => Hanging::OnTable,
@@ -85,6 +86,30 @@ impl Cell {
             (true, true, true) => Hanging::Hung { clear_m },
         })
     }
+}
+
+impl World {
+    /// Height of the object's lowest point over the table, metres.
+    fn clear_m(&self) -> f64 {
+        self.vertices().iter().map(|p| p.z).fold(f64::INFINITY, f64::min)
+    }
+
+    fn touches_peg(&self) -> bool {
+        self.min_signed_distance_to_peg().is_some_and(|gap| gap < TOUCH_M)
+    }
+
+    /// Whether the object is on a peg and clear of the table now.
+    pub(crate) fn hangs(&self) -> bool {
+        self.clear_m() > CLEAR_M && self.touches_peg()
+    }
+}
+
+/// The direction along the wall of the hook that is nearest to the object; none without a hook.
+fn nearest_wall(world: &World) -> Option<Vector3<f64>> {
+    let place = world.centre_of_mass();
+    let away = |hook: &&Hook| (hook.tip() - place).norm();
+    let nearest = world.surroundings().hooks.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+    nearest.map(|hook| hook.pose.rotation * Vector3::x())
 }
 
 /// Whether the object is where it was for the second to come.
@@ -121,7 +146,7 @@ mod tests {
     use crate::drop::Drop;
     use crate::expert::VisorGrasp;
     use crate::object::Region;
-    use crate::surroundings::{Hook, Surroundings};
+    use crate::surroundings::Surroundings;
     use crate::world::Settings;
     use nalgebra::{Rotation3, Translation3, UnitQuaternion};
     use seeone_core::Pose;
@@ -131,7 +156,7 @@ mod tests {
     fn lying() -> Cell {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
         let hook = Hook::coat(Pose::from_parts(Translation3::new(0.3, 0.6, 0.4), turn));
-        let around = Surroundings { table: true, hook: Some(hook), ..Surroundings::default() };
+        let around = Surroundings { table: true, hooks: vec![hook], ..Surroundings::default() };
         let object = cap::named("cap-train-003").expect("a cap");
         let drop = Drop::draw([0.3, 0.0], &mut generator(1, "drop"));
         Cell::after_drop(object, &drop, around, Settings::default()).expect("a cell")
@@ -140,7 +165,7 @@ mod tests {
     /// Lets the cap go with its opening to the wall, the hem below its visor so far from the
     /// peg: to the side and above, metres.
     fn let_go(cell: &mut Cell, beside: f64, above: f64) {
-        let hook = cell.world().surroundings().hook.expect("a hook");
+        let hook = cell.world().surroundings().hooks[0];
         let mesh = cell.object().mesh().clone();
         let hem = cell.object().vertices_of(Region::Hem).into_iter().map(|v| mesh.vertices()[v]);
         let front = hem.max_by(|a, b| a.y.total_cmp(&b.y)).expect("a hem");

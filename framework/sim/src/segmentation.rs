@@ -1,5 +1,9 @@
 //! Which pixels of a depth image show the object, on the mat or in the gripper.
 
+mod apart;
+
+pub use apart::groups;
+
 use crate::hand::{FINGER_THICKNESS_M, Hand, PAD_HEEL_M, PAD_TIP_M, PAD_WIDTH_M};
 use nalgebra::Point3;
 use seeone_core::{Cloud, DepthImage, Pose};
@@ -21,6 +25,9 @@ pub struct DropZone {
 const MAT_M: f64 = 0.004;
 /// A patch smaller than this share of the largest one is taken for noise.
 const SMALLEST_SHARE: f64 = 0.2;
+/// A smaller patch is the mat's noise, whose patches have up to 140 pixels, and no part of an
+/// object, of which some thousand show.
+const SMALLEST_PIXELS: usize = 500;
 /// Neighbouring pixels whose depths differ by less belong to one patch, metres.
 const SAME_PATCH_M: f64 = 0.03;
 
@@ -42,12 +49,21 @@ impl DropZone {
     /// The mat's own noise stands out above the threshold here and there, in small islands;
     /// only connected patches of a fair size are kept.
     pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
-        segment(image, camera, |p| self.holds(p))
+        segment(image, camera, 1, |p| self.holds(p))
     }
 
-    /// The segmented points alone.
-    pub fn cloud(&self, image: &DepthImage, camera: &Pose) -> Cloud {
-        let points = self.segment(image, camera).into_iter().map(|(_, p)| p).collect();
+    /// The segmented points alone, of patches that are large enough for an object.
+    ///
+    /// With `apart_m` several objects may lie there, each farther from the others than so many
+    /// metres: the points are then those of the one that shows most of itself.
+    pub fn cloud(&self, image: &DepthImage, camera: &Pose, apart_m: Option<f64>) -> Cloud {
+        let patches = segment(image, camera, SMALLEST_PIXELS, |p| self.holds(p));
+        let mut points: Vec<_> = patches.into_iter().map(|(_, p)| p).collect();
+        if let Some(apart_m) = apart_m {
+            // Of groups of one size the first, as the image is read.
+            let largest = groups(points, apart_m).into_iter().rev().max_by_key(Vec::len);
+            points = largest.unwrap_or_default();
+        }
         Cloud::new(points).unwrap_or_default()
     }
 }
@@ -80,14 +96,16 @@ impl HandZone {
     /// Pixels of `image` that show what the hand holds, each with its point in `world`, in
     /// patches of a fair size. `camera` is the camera's pose in `world`.
     pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
-        segment(image, camera, |p| self.holds(p))
+        segment(image, camera, 1, |p| self.holds(p))
     }
 }
 
-/// Pixels whose points `holds` holds, in connected patches of a fair size.
+/// Pixels whose points `holds` holds, in connected patches of a fair size, none of fewer than
+/// `smallest` pixels.
 fn segment(
     image: &DepthImage,
     camera: &Pose,
+    smallest: usize,
     holds: impl Fn(&Point3<f64>) -> bool,
 ) -> Vec<(usize, Point3<f64>)> {
     let width = image.intrinsics.width;
@@ -107,7 +125,7 @@ fn segment(
     let largest = patches.iter().map(Vec::len).max().unwrap_or(0);
     let mut kept: Vec<usize> = patches
         .into_iter()
-        .filter(|p| p.len() as f64 >= SMALLEST_SHARE * largest as f64)
+        .filter(|p| p.len() as f64 >= SMALLEST_SHARE * largest as f64 && p.len() >= smallest)
         .flatten()
         .collect();
     kept.sort_unstable();
@@ -154,6 +172,23 @@ mod tests {
     use crate::scenery::{fingers, rectangle, table};
     use nalgebra::{Translation3, UnitQuaternion, Vector3};
     use seeone_core::random::generator;
+
+    #[test]
+    fn an_empty_mat_shows_no_object_and_of_two_the_larger_is_shown() {
+        let camera = looking_at(&Vector3::new(0.35, -0.2, 0.65), &Vector3::zeros());
+        let zone = DropZone { half_extents_m: [0.6; 2], ..DropZone::around([0.0; 2]) };
+        let seen = |meshes: &[&seeone_core::TriangleMesh]| {
+            let noise = Noise::default();
+            let shot = capture(meshes, &camera, &D435I, &noise, &mut generator(3, "t"));
+            zone.cloud(&shot.image, &camera, Some(0.08))
+        };
+        assert!(seen(&[&table()]).is_empty());
+        let (large, small) =
+            (rectangle([0.1, 0.1], [0.2, 0.2], 0.05), rectangle([-0.15, 0.1], [0.1, 0.1], 0.05));
+        let cloud = seen(&[&table(), &small, &large]);
+        assert!(cloud.len() > 1000, "{}", cloud.len());
+        assert!(cloud.points().iter().all(|p| p.x > -0.02), "nothing of the smaller one");
+    }
 
     #[test]
     fn neither_fingers_nor_table_are_taken_for_what_the_hand_holds() {

@@ -32,14 +32,14 @@ impl Default for Frictions {
 }
 
 /// The rigid surroundings.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surroundings {
     /// Whether there is a table, its top at z = 0.
     pub table: bool,
     /// A head, if any.
     pub head: Option<Head>,
-    /// A hook on a wall, if any.
-    pub hook: Option<Hook>,
+    /// Hooks, each on its wall, if any.
+    pub hooks: Vec<Hook>,
     /// Friction with each of them.
     pub frictions: Frictions,
 }
@@ -48,9 +48,9 @@ impl Surroundings {
     /// Everything in it that an object may touch.
     pub(crate) fn bodies(&self) -> Vec<Body> {
         let head = self.head.map(|head| head.bodies(self.frictions.head));
-        let hook = self.hook.map(|hook| hook.bodies(self.frictions.hook));
+        let hooks = self.hooks.iter().flat_map(|hook| hook.bodies(self.frictions.hook));
         let table = self.table.then(|| half_space(Pose::identity(), self.frictions.table));
-        head.into_iter().flatten().chain(hook.into_iter().flatten()).chain(table).collect()
+        head.into_iter().flatten().chain(hooks).chain(table).collect()
     }
 }
 

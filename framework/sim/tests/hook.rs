@@ -45,7 +45,7 @@ fn before_the_peg(object: &Object, beside: f64) -> (World, f64) {
     let at = far + Vector3::z() * CLEARANCE_M + Vector3::x() * beside;
     let placed = Pose::from_parts(Translation3::from(at - rotation * front.coords), rotation);
     let slide = BEFORE_M + hook.peg.length_m() - WALL_GAP_M / axis.dot(&out);
-    let surroundings = Surroundings { table: true, hook: Some(hook), ..Surroundings::default() };
+    let surroundings = Surroundings { table: true, hooks: vec![hook], ..Surroundings::default() };
     let settings = Settings { gravity: Vector3::zeros(), ..Settings::default() };
     let mut world = World::new(object, &placed, surroundings, settings);
     let tool = VisorGrasp::of(object, 0.0).unwrap().tool_on(world.vertices());

@@ -34,4 +34,7 @@ struct Crop {
     half_extents_m: [f64; 2],
     floor_m: f64,
     height_m: f64,
+    /// Several objects may lie there, farther from each other than this, metres; one when it is
+    /// left out.
+    apart_m: Option<f64>,
 }

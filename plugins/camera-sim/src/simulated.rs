@@ -16,6 +16,7 @@ pub struct SimulatedCamera {
     pose: Pose,
     intrinsics: Intrinsics,
     zone: DropZone,
+    apart_m: Option<f64>,
     noise: Generator,
 }
 
@@ -29,6 +30,12 @@ impl SimulatedCamera {
         let configuration: Configuration = setup.configuration()?;
         let pose = configuration.pose.resolve().map_err(PluginError::Configuration)?;
         let crop = configuration.crop;
+        if let Some(apart_m) = crop.apart_m
+            && !(apart_m.is_finite() && apart_m > 0.0)
+        {
+            let cause = format!("apart_m = {apart_m} is no distance");
+            return Err(PluginError::Configuration(cause));
+        }
         let zone = DropZone {
             centre_m: crop.centre_xy_m,
             half_extents_m: crop.half_extents_m,
@@ -40,6 +47,7 @@ impl SimulatedCamera {
             pose,
             intrinsics: configuration.intrinsics,
             zone,
+            apart_m: crop.apart_m,
             noise: generator(setup.seed, "camera"),
         })
     }
@@ -47,7 +55,7 @@ impl SimulatedCamera {
     fn look(&mut self, noise: &mut impl Rng) -> Result<Observation, PluginError> {
         let surfaces = self.world.surfaces()?;
         let depth = look(&surfaces, &self.pose, &self.intrinsics, noise);
-        let cloud = self.zone.cloud(&depth, &self.pose);
+        let cloud = self.zone.cloud(&depth, &self.pose, self.apart_m);
         let camera_position = Point3::from(self.pose.translation.vector);
         Ok(Observation { depth: Some(depth), cloud, camera_position })
     }

@@ -262,8 +262,10 @@ fn scene(head: Pose) -> Scene {
     Scene {
         name: "head".into(),
         object: "fake-cap".into(),
+        beside: Vec::new(),
         table: Table { height_m: 0.0, soft_m: 0.03, friction: 0.6 },
         targets: Targets::Head(Head { pose: head, size: HeadSize::MEDIUM, friction: 0.5 }),
+        further_hooks: BTreeMap::new(),
         places: BTreeMap::new(),
         camera_plugin: None,
         camera_cloud: None,
@@ -273,6 +275,7 @@ fn scene(head: Pose) -> Scene {
             centre: Point2::new(0.45, -0.15),
             half_extents_m: Vector2::new(0.25, 0.25),
             crop_height_m: 0.3,
+            apart_m: None,
         },
         standing: Vec::new(),
     }

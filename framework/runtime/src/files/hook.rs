@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use seeone_core::hook::PEG_LENGTH_M;
 use seeone_core::{Peg, Pose};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// The wall stands upright to within this, radians.
 const UPRIGHT_RAD: f64 = 0.01;
@@ -26,19 +27,41 @@ pub(super) struct RawHook {
     /// Coulomb friction of the peg.
     #[schemars(range(min = 0.0, max = 2.0))]
     friction: Spanned<f64>,
+    /// The frames of further hooks like this one, by name.
+    #[serde(default)]
+    further: BTreeMap<Spanned<String>, Spanned<RawPose>>,
+}
+
+/// The further hooks, whose walls stand upright behind the drop zone.
+pub(super) fn further_hooks(
+    resolver: &mut Resolver,
+    raw: &RawHook,
+    drop: &Drop,
+    height_m: f64,
+) -> BTreeMap<String, Pose> {
+    let named = raw.further.iter().map(|(name, pose)| {
+        let name = resolver.place_name("further", name);
+        (name, upright(resolver, pose, drop, height_m))
+    });
+    named.collect()
+}
+
+fn upright(resolver: &mut Resolver, raw: &Spanned<RawPose>, drop: &Drop, height_m: f64) -> Pose {
+    let pose = resolver.pose("pose", raw);
+    if (pose.rotation * Vector3::z()).angle(&Vector3::z()) > UPRIGHT_RAD {
+        let cause = "the wall of the hook leans: the z axis of its frame must point up";
+        resolver.fault(Fault::Pose, raw.span(), cause);
+    } else if !before_the_wall(&pose, drop, height_m) {
+        let cause = "the wall of the hook stands in the drop zone: y of its frame must point out \
+                     of the wall, to the whole zone";
+        resolver.fault(Fault::Order, raw.span(), cause);
+    }
+    pose
 }
 
 /// The hook, whose wall stands upright behind the drop zone.
 pub(super) fn hook(resolver: &mut Resolver, raw: &RawHook, drop: &Drop, height_m: f64) -> Hook {
-    let pose = resolver.pose("pose", &raw.pose);
-    if (pose.rotation * Vector3::z()).angle(&Vector3::z()) > UPRIGHT_RAD {
-        let cause = "the wall of the hook leans: the z axis of its frame must point up";
-        resolver.fault(Fault::Pose, raw.pose.span(), cause);
-    } else if !before_the_wall(&pose, drop, height_m) {
-        let cause = "the wall of the hook stands in the drop zone: y of its frame must point out \
-                     of the wall, to the whole zone";
-        resolver.fault(Fault::Order, raw.pose.span(), cause);
-    }
+    let pose = upright(resolver, &raw.pose, drop, height_m);
     let [low, high] = PEG_LENGTH_M;
     let length_m = raw.length_m.as_ref();
     let length_m = resolver.number_or("length_m", length_m, Peg::COAT.length_m(), low..=high);

@@ -5,6 +5,7 @@
 //! that cannot be invalid. Whatever is wrong is a [`seeone_core::Diagnostic`] with file,
 //! line and column.
 
+mod beside;
 mod check;
 mod codes;
 mod exactly;
@@ -31,7 +32,7 @@ pub use codes::Family;
 pub use locate::locate;
 pub use resolver::is_name;
 pub use robot_file::RobotFile;
-pub use scene::{Drop, Head, Hook, Scene, Table, Targets};
+pub use scene::{Beside, Drop, Head, Hook, Scene, Table, Targets};
 pub use schema::schema;
 pub use skill::{Demonstration, RelativeTo, Skill, Stage};
 pub use task::{SkillUse, Task, TaskStep, Work};

@@ -132,6 +132,15 @@ impl<'a> Resolver<'a> {
         name.clone()
     }
 
+    /// The name of a place in the scene: none that means another thing.
+    pub(super) fn place_name(&mut self, key: &str, value: &Spanned<String>) -> String {
+        if ["object", "head", "hook"].contains(&value.get_ref().as_str()) {
+            let cause = format!("{:?} is no name for a place: it means another", value.get_ref());
+            self.fault(Fault::Name, value.span(), cause);
+        }
+        self.name(key, value)
+    }
+
     /// A file below the folder of this one: the path from here.
     pub(super) fn file(&mut self, key: &str, value: &Spanned<String>) -> PathBuf {
         let relative = Path::new(value.get_ref());

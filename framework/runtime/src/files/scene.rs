@@ -63,6 +63,17 @@ pub struct Drop {
     pub half_extents_m: Vector2<f64>,
     /// Height of that box above the table, metres.
     pub crop_height_m: f64,
+    /// Where several objects may lie in it: each is farther from the others than so many metres.
+    pub apart_m: Option<f64>,
+}
+
+/// A further object that lies there from the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// Its name, or the name of a set to draw from.
+    pub object: String,
+    /// Where it is dropped, `world`, metres.
+    pub centre: Point2<f64>,
 }
 
 /// A scene.
@@ -74,8 +85,12 @@ pub struct Scene {
     pub object: String,
     /// The table.
     pub table: Table,
+    /// Further objects; none in a scene with a head.
+    pub beside: Vec<Beside>,
     /// What objects are brought to.
     pub targets: Targets,
+    /// Where further hooks like the one among the targets are, by name.
+    pub further_hooks: BTreeMap<String, Pose>,
     /// Further frames by name, e.g. where a person takes things; none is `object`, `head` or
     /// `hook`.
     pub places: BTreeMap<String, Pose>,
@@ -127,13 +142,26 @@ impl Scene {
         }
     }
 
-    /// The pose in `world` of a frame that a skill may refer to: `head`, `hook`, or a place
-    /// that the scene names.
+    /// What lies there, each by its name or that of a set.
+    pub fn objects(&self) -> Vec<&str> {
+        let beside = self.beside.iter().map(|one| one.object.as_str());
+        [self.object.as_str()].into_iter().chain(beside).collect()
+    }
+
+    /// Every hook, that of the targets first.
+    pub fn hooks(&self) -> Vec<Hook> {
+        let Some(first) = self.hook() else { return Vec::new() };
+        let further = self.further_hooks.values().map(|pose| Hook { pose: *pose, ..*first });
+        [*first].into_iter().chain(further).collect()
+    }
+
+    /// The pose in `world` of a frame that a skill may refer to: `head`, `hook`, a further hook
+    /// or a place that the scene names.
     pub fn frame(&self, name: &str) -> Option<Pose> {
         match name {
             "head" => self.head().map(|head| head.pose),
             "hook" => self.hook().map(|hook| hook.pose),
-            _ => self.places.get(name).copied(),
+            _ => self.further_hooks.get(name).or_else(|| self.places.get(name)).copied(),
         }
     }
 
@@ -146,14 +174,15 @@ impl Scene {
             rotation: head.pose.rotation,
             semi_axes_m: head.size.semi_axes_m(),
         });
-        let hook = self.hook().into_iter().flat_map(Hook::solids);
-        let solids = hook.chain(self.standing.iter().cloned()).map(Obstacle::Solid);
+        let hooks = self.hooks();
+        let hooks = hooks.iter().flat_map(Hook::solids);
+        let solids = hooks.chain(self.standing.iter().cloned()).map(Obstacle::Solid);
         [Obstacle::Table { height_m, soft_m }].into_iter().chain(head).chain(solids).collect()
     }
 
     /// The table of configuration from which the camera plugin is built: `pose`,
     /// `intrinsics`, and `crop` with `centre_xy_m`, `half_extents_m`, `floor_m` and
-    /// `height_m`, the box in `world` that holds the target; `cloud` where the file has it.
+    /// `height_m`, the box in `world` that holds the target, with `apart_m` where it may hold several; `cloud` where the file has it.
     pub fn camera_table(&self) -> toml::Table {
         let pose = PoseFields::from(&self.camera);
         let lens = &self.intrinsics;
@@ -171,12 +200,15 @@ impl Scene {
             ("cx", lens.cx.into()),
             ("cy", lens.cy.into()),
         ]);
-        let crop = table(vec![
+        let mut crop = table(vec![
             ("centre_xy_m", floats(self.drop.centre.coords.as_slice())),
             ("half_extents_m", floats(self.drop.half_extents_m.as_slice())),
             ("floor_m", self.table.height_m.into()),
             ("height_m", self.drop.crop_height_m.into()),
         ]);
+        if let Some(apart_m) = self.drop.apart_m {
+            crop.insert("apart_m".into(), apart_m.into());
+        }
         let mut camera = table(vec![
             ("pose", pose.into()),
             ("intrinsics", intrinsics.into()),

@@ -1,8 +1,9 @@
 //! Reading a scene.
 
+use super::beside::{RawBeside, beside};
 use super::codes::{Family, Fault};
 use super::exactly::Exactly;
-use super::hook::{RawHook, hook};
+use super::hook::{RawHook, further_hooks, hook};
 use super::obstacle::{RawObstacle, obstacle};
 use super::pose::{RawIntrinsics, RawPose};
 use super::resolver::Resolver;
@@ -32,6 +33,9 @@ pub(super) struct RawScene {
     name: Spanned<String>,
     /// The object that lies there: its name, or the name of a set to draw from.
     object: Spanned<String>,
+    /// Further objects that lie there; the scene then has no head.
+    #[serde(default)]
+    beside: Vec<Spanned<RawBeside>>,
     /// The table.
     table: RawTable,
     /// The head: z up, +y where the face looks. A scene has a head, a hook or both.
@@ -105,10 +109,16 @@ struct RawDrop {
     /// Height of that box above the table, metres.
     #[schemars(range(min = 0.01, max = FARTHEST_M))]
     crop_height_m: Spanned<f64>,
+    /// Several objects may lie in the box, each farther from the others than this, metres; the
+    /// camera then shows one of them. Left out, whatever lies there is one object.
+    #[schemars(range(min = APART_M[0], max = APART_M[1]))]
+    apart_m: Option<Spanned<f64>>,
 }
 
 /// How far the robot may sink into the mat when the file does not say it, metres.
 const SOFT_M: f64 = 0.03;
+/// How far apart objects can be told to lie, metres.
+const APART_M: [f64; 2] = [0.01, 1.0];
 /// The farthest coordinate of a table or a drop zone, metres.
 const FARTHEST_M: f64 = 5.0;
 /// The focal lengths of a camera, pixels.
@@ -133,14 +143,22 @@ impl Scene {
         };
         let drop = drop_zone(&mut resolver, &raw.drop);
         let head = raw.head.as_ref().map(|raw| head(&mut resolver, raw));
+        let further = raw
+            .hook
+            .as_ref()
+            .map(|raw| further_hooks(&mut resolver, raw, &drop, table.height_m))
+            .unwrap_or_default();
         let hook = raw.hook.as_ref().map(|raw| hook(&mut resolver, raw, &drop, table.height_m));
+        let beside = beside(&mut resolver, &raw.beside, &drop, head.is_some());
         let targets = targets(&mut resolver, head, hook);
         let scene = Scene {
             name: resolver.name("name", &raw.name),
             object: resolver.name("object", &raw.object),
             table,
+            beside,
             targets,
-            places: places(&mut resolver, &raw.frames),
+            places: places(&mut resolver, &raw.frames, &further),
+            further_hooks: further,
             camera_plugin: camera_plugin(&mut resolver, raw.camera.plugin.as_ref(), known),
             camera_cloud: raw.camera.cloud.as_ref().map(|cloud| {
                 let path = resolver.file("cloud", cloud);
@@ -172,14 +190,15 @@ fn targets(resolver: &mut Resolver, head: Option<Head>, hook: Option<Hook>) -> T
 fn places(
     resolver: &mut Resolver,
     raw: &BTreeMap<Spanned<String>, Spanned<RawPose>>,
+    further_hooks: &BTreeMap<String, Pose>,
 ) -> BTreeMap<String, Pose> {
     let mut places = BTreeMap::new();
     for (name, pose) in raw {
-        if ["object", "head", "hook"].contains(&name.get_ref().as_str()) {
-            let cause = format!("{:?} is no name for a place: it means another", name.get_ref());
+        if further_hooks.contains_key(name.get_ref()) {
+            let cause = format!("{:?} is the name of a further hook already", name.get_ref());
             resolver.fault(Fault::Name, name.span(), cause);
         }
-        places.insert(resolver.name("frames", name), resolver.pose("frames", pose));
+        places.insert(resolver.place_name("frames", name), resolver.pose("frames", pose));
     }
     places
 }
@@ -267,9 +286,13 @@ fn intrinsics(resolver: &mut Resolver, raw: &Spanned<RawIntrinsics>) -> Intrinsi
 fn drop_zone(resolver: &mut Resolver, raw: &RawDrop) -> Drop {
     let centre = resolver.numbers("centre_xy_m", &raw.centre_xy_m, -FARTHEST_M..=FARTHEST_M);
     let half = resolver.numbers("half_extents_m", &raw.half_extents_m, 0.01..=FARTHEST_M);
+    let [low, high] = APART_M;
+    let apart_m = raw.apart_m.as_ref();
+    let apart_m = apart_m.map(|apart| resolver.number("apart_m", apart, low..=high));
     Drop {
         centre: Point2::from(centre),
         half_extents_m: Vector2::from(half),
         crop_height_m: resolver.number("crop_height_m", &raw.crop_height_m, 0.01..=FARTHEST_M),
+        apart_m,
     }
 }

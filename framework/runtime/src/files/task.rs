@@ -39,6 +39,19 @@ pub enum Work {
     Sequence(Vec<TaskStep>),
     /// One step after another, until one is done; never empty.
     Fallback(Vec<TaskStep>),
+    /// One step after another, as long as an object is in sight; never empty. With the last of
+    /// them none may be left.
+    Visible(Vec<TaskStep>),
+}
+
+impl Work {
+    /// The steps that lie in it.
+    pub fn steps(&self) -> &[TaskStep] {
+        match self {
+            Self::Skill(_) => &[],
+            Self::Sequence(steps) | Self::Fallback(steps) | Self::Visible(steps) => steps,
+        }
+    }
 }
 
 /// A skill as a task uses it.
@@ -73,17 +86,13 @@ impl Task {
 impl TaskStep {
     fn objects<'a>(&'a self, objects: &mut Vec<&'a str>) {
         objects.extend(self.objects.iter().map(String::as_str));
-        if let Work::Sequence(steps) | Work::Fallback(steps) = &self.work {
-            steps.iter().for_each(|step| step.objects(objects));
-        }
+        self.work.steps().iter().for_each(|step| step.objects(objects));
     }
 
     fn collect<'a>(&'a self, uses: &mut Vec<&'a SkillUse>) {
-        match &self.work {
-            Work::Skill(skill) => uses.push(skill),
-            Work::Sequence(steps) | Work::Fallback(steps) => {
-                steps.iter().for_each(|step| step.collect(uses));
-            }
+        if let Work::Skill(skill) = &self.work {
+            uses.push(skill);
         }
+        self.work.steps().iter().for_each(|step| step.collect(uses));
     }
 }

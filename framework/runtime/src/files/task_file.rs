@@ -55,6 +55,9 @@ struct RawStep {
     object: Option<Spanned<String>>,
     /// Objects with which the step is taken, one after another, whatever becomes of each.
     for_each_object: Option<Spanned<Vec<Spanned<String>>>>,
+    /// A skill is taken with one object in sight after another, until none is: for a frame of the
+    /// skill the scene's frames that it stands for in turn.
+    for_each_visible: Option<Spanned<BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>>>,
     /// What must be true before a skill: `object-visible`, `hand-empty`.
     #[serde(default)]
     require: Vec<Spanned<String>>,
@@ -136,7 +139,7 @@ impl Reader<'_> {
             self.resolver.fault(Fault::Name, raw.name.span(), cause);
         }
         let work = match (&raw.skill, &raw.sequence, &raw.fallback) {
-            (Some(skill), None, None) => self.skill_use(raw, skill).map(Box::new).map(Work::Skill),
+            (Some(skill), None, None) => self.skill_work(raw, &name, skill),
             (None, Some(steps), None) => {
                 self.not_of_a_group(raw);
                 Some(Work::Sequence(self.steps(steps.get_ref(), steps.span(), depth + 1)))
@@ -151,8 +154,13 @@ impl Reader<'_> {
                 None
             }
         };
-        let (tries, objects) = (self.tries(raw.tries.as_ref()), self.objects(raw));
-        Some(TaskStep { name, work: work?, tries, objects })
+        let (work, objects) = (work?, self.objects(raw));
+        // With what is in sight every step of it is tried so often, and not all of them again.
+        let tries = match work {
+            Work::Visible(_) => 1,
+            _ => self.tries(raw.tries.as_ref()),
+        };
+        Some(TaskStep { name, work, tries, objects })
     }
 
     fn tries(&mut self, raw: Option<&Spanned<u32>>) -> usize {
@@ -192,6 +200,7 @@ impl Reader<'_> {
             ("require", raw.require.first().map(Spanned::span)),
             ("targets", raw.targets.keys().next().map(Spanned::span)),
             ("methods", raw.methods.keys().next().map(Spanned::span)),
+            ("for_each_visible", raw.for_each_visible.as_ref().map(Spanned::span)),
         ];
         for (key, at) in of_skills {
             if let Some(at) = at {
@@ -207,18 +216,56 @@ impl Reader<'_> {
         let (path, mut skill) = self.skill(name)?;
         skill.methods.extend(methods);
         let targets = raw.targets.iter().map(|(frame, target)| {
-            let frames = &skill.demonstration.frames;
-            if !frames.contains_key(frame.get_ref()) {
-                let cause = format!("skill {:?} has no frame {:?}", skill.name, frame.get_ref());
-                let source = self.resolver.source;
-                let fault = source.fault(Fault::Reference, frame.span(), cause);
-                let frames = frames.keys().map(String::as_str);
-                self.resolver.note(fault.suggest(frame.get_ref(), frames));
-            }
-            (frame.get_ref().clone(), self.resolver.name("targets", target))
+            (self.frame(&skill, frame), self.resolver.name("targets", target))
         });
         let targets = targets.collect();
         Some(SkillUse { path, skill, requires, targets })
+    }
+
+    /// A skill once, or with one object in sight after another.
+    fn skill_work(&mut self, raw: &RawStep, name: &str, skill: &Spanned<String>) -> Option<Work> {
+        let used = self.skill_use(raw, skill)?;
+        let Some(turns) = &raw.for_each_visible else { return Some(Work::Skill(Box::new(used))) };
+        if raw.object.is_some() || raw.for_each_object.is_some() {
+            let cause = "a step lays objects there or takes what is in sight, not both";
+            self.resolver.fault(Fault::Order, turns.span(), cause);
+        }
+        let most = turns.get_ref().values().map(|targets| targets.get_ref().len()).max();
+        let most = most.filter(|most| (1..=MOST).contains(most)).unwrap_or_else(|| {
+            let cause = format!("for_each_visible names a frame with 1 to {MOST} targets");
+            self.resolver.fault(Fault::Order, turns.span(), cause);
+            0
+        });
+        let tries = self.tries(raw.tries.as_ref());
+        let mut steps = vec![(name.to_owned(), used.clone()); most];
+        for (frame, targets) in turns.get_ref() {
+            let frame = self.frame(&used.skill, frame);
+            if targets.get_ref().len() != most {
+                let cause = format!("{frame:?} has fewer targets than another frame");
+                self.resolver.fault(Fault::Order, targets.span(), cause);
+            }
+            for ((name, used), target) in steps.iter_mut().zip(targets.get_ref()) {
+                let target = self.resolver.name("for_each_visible", target);
+                *name += &format!("-{target}");
+                used.targets.insert(frame.clone(), target);
+            }
+        }
+        let steps = steps.into_iter().map(|(name, used)| {
+            TaskStep { name, work: Work::Skill(Box::new(used)), tries, objects: Vec::new() }
+        });
+        Some(Work::Visible(steps.collect()))
+    }
+
+    /// The name of a frame that the skill has.
+    fn frame(&mut self, skill: &Skill, frame: &Spanned<String>) -> String {
+        let frames = &skill.demonstration.frames;
+        if !frames.contains_key(frame.get_ref()) {
+            let cause = format!("skill {:?} has no frame {:?}", skill.name, frame.get_ref());
+            let fault = self.resolver.source.fault(Fault::Reference, frame.span(), cause);
+            let frames = frames.keys().map(String::as_str);
+            self.resolver.note(fault.suggest(frame.get_ref(), frames));
+        }
+        frame.get_ref().clone()
     }
 
     fn precondition(&mut self, name: &Spanned<String>) -> Option<Precondition> {
@@ -260,7 +307,7 @@ impl Reader<'_> {
 fn most_runs(step: &TaskStep) -> f64 {
     let once = match &step.work {
         Work::Skill(_) => 1.0,
-        Work::Sequence(steps) | Work::Fallback(steps) => steps.iter().map(most_runs).sum(),
+        work => work.steps().iter().map(most_runs).sum(),
     };
     once * step.tries as f64 * step.objects.len().max(1) as f64
 }

@@ -119,7 +119,7 @@ impl Assignment {
     pub(crate) fn to_json(&self) -> Value {
         // The cloud is named by its file alone: where the files lie is not part of the run.
         let folder = self.skill.demonstration.cloud.parent().unwrap_or(Path::new(""));
-        let Scene { name, table, places, camera, drop, .. } = &self.scene;
+        let Scene { name, beside, table, further_hooks, places, camera, drop, .. } = &self.scene;
         let (head, hook) = (self.scene.head(), self.scene.hook());
         json!({
             "skill": self.skill.to_toml(folder).unwrap_or_else(|fault| fault.to_string()),
@@ -135,6 +135,8 @@ impl Assignment {
                 "hook": hook.map(|hook| pose(&hook.pose)),
                 "hook_length_m": hook.map(|hook| hook.peg.length_m()),
                 "hook_friction": hook.map(|hook| hook.friction),
+                "further_hooks": further_hooks.iter().map(|(name, place)| (name, pose(place))).collect::<BTreeMap<_, _>>(),
+                "beside": beside.iter().map(|one| json!({ "object": one.object, "centre_xy_m": one.centre.coords.as_slice() })).collect::<Vec<_>>(),
                 "places": places.iter().map(|(name, place)| (name, pose(place))).collect::<BTreeMap<_, _>>(),
                 "camera": pose(camera),
                 "drop_centre_xy_m": drop.centre.coords.as_slice(),

@@ -54,6 +54,7 @@ pub use transfer::{Grasp, Transferred};
 pub use withdraw::Withdraw;
 
 pub(crate) use bench::Bench;
+pub(crate) use observe::NOTHING;
 pub(crate) use schedule::carry_out;
 
 #[cfg(test)]

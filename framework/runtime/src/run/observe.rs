@@ -8,7 +8,7 @@ use bevy_ecs::prelude::*;
 use seeone_plugin::Observation;
 
 /// What is told when the cloud is empty.
-pub(super) const NOTHING: &str = "nothing of the object is in sight";
+pub(crate) const NOTHING: &str = "nothing of the object is in sight";
 
 /// What the camera saw.
 #[derive(Component, Clone, Debug)]

@@ -39,10 +39,10 @@ impl Precondition {
 
     fn ask(self, plugins: &mut Plugins) -> Result<(), String> {
         match self {
-            Self::ObjectVisible => {
-                let observation = plugins.camera.observe().map_err(|e| e.to_string())?;
-                if observation.cloud.is_empty() { Err(NOTHING.into()) } else { Ok(()) }
-            }
+            Self::ObjectVisible => match in_sight(plugins)? {
+                true => Ok(()),
+                false => Err(NOTHING.into()),
+            },
             Self::HandEmpty => {
                 let here = plugins.robot.state().map_err(|e| e.to_string())?.joints;
                 // A gripper tells what it feels at the end of an action: of one that stays.
@@ -54,6 +54,25 @@ impl Precondition {
                 }
             }
         }
+    }
+}
+
+/// Whether the camera sees something of an object.
+///
+/// # Errors
+/// When no image could be had.
+fn in_sight(plugins: &mut Plugins) -> Result<bool, String> {
+    let observation = plugins.camera.observe().map_err(|e| e.to_string())?;
+    Ok(!observation.cloud.is_empty())
+}
+
+impl Bench {
+    /// Whether the camera sees something of an object.
+    ///
+    /// # Errors
+    /// When no image could be had.
+    pub(crate) fn object_in_sight(&mut self) -> Result<bool, String> {
+        self.timed(Step::Require, |plugins, _| in_sight(plugins)).0
     }
 }
 

@@ -1,10 +1,10 @@
 //! What is to be done next: a walk through the tree from its root.
 
 use super::cell::Cell;
-use super::node::{Composition, Ended, Node, Progress, State};
+use super::node::{Composition, Ended, Node, Prepared, Progress, State};
 use super::outcome::TaskEvent;
 use super::run_task::Teller;
-use crate::run::Bench;
+use crate::run::{Bench, NOTHING};
 use bevy_ecs::prelude::*;
 
 /// The task's root, for the system that walks it.
@@ -71,6 +71,13 @@ fn attempted(world: &mut World, step: Entity) -> Found {
 fn composed(world: &mut World, step: Entity, composition: Composition) -> Found {
     let (mut last, mut failed) = (None, Vec::new());
     for child in children(world, step) {
+        if composition == Composition::Visible && state(world, child) == State::Waiting {
+            match in_sight(world) {
+                Ok(true) => {}
+                Ok(false) => return told_of_all(last.or(Some(NOTHING.into())), failed),
+                Err(why) => return Found::Failed(why),
+            }
+        }
         if let Some(skill) = advance(world, child) {
             return Found::ToRun(skill);
         }
@@ -84,7 +91,30 @@ fn composed(world: &mut World, step: Entity, composition: Composition) -> Found 
             (_, true) => last = reason,
         }
     }
+    // After the last target nothing may be left, but where nothing moves.
+    if composition == Composition::Visible && !is_dry(world, step) {
+        match in_sight(world) {
+            Ok(true) => failed.push("an object is left in sight, but no target for it".into()),
+            Ok(false) => {}
+            Err(why) => failed.push(why),
+        }
+    }
+    told_of_all(last, failed)
+}
+
+fn told_of_all(last: Option<String>, failed: Vec<String>) -> Found {
     if failed.is_empty() { Found::Done(last) } else { Found::Failed(failed.join("; ")) }
+}
+
+/// Whether the camera sees an object.
+fn in_sight(world: &mut World) -> Result<bool, String> {
+    world.non_send_mut::<Bench>().object_in_sight()
+}
+
+/// Whether the runs of the skills in `step` stop after planning.
+fn is_dry(world: &World, step: Entity) -> bool {
+    let prepared = |child: &Entity| world.get::<Prepared>(*child);
+    children(world, step).iter().filter_map(prepared).any(|it| it.assignment.dry_run)
 }
 
 fn begin(world: &mut World, step: Entity) {

@@ -10,6 +10,7 @@
 //! | sequence | each step is done | a step has failed; those after it are skipped |
 //! | fallback | a step is done; those after it are skipped | each step has failed |
 //! | each | it is done with every object | it has failed with any; the others have their turn |
+//! | visible | nothing is in sight any more; the other steps are skipped | a step has failed, or something is left after the last |
 //!
 //! A step that fails and has tries left is begun again, with all that lies in it. A run that
 //! follows a failed one first lets go and goes back to where the robot waits

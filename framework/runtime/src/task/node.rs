@@ -40,6 +40,8 @@ pub enum Composition {
     Fallback,
     /// One after another, once for each object.
     Each,
+    /// One after another, as long as an object is in sight.
+    Visible,
 }
 
 /// A step of a task as it is carried out.

@@ -3,7 +3,7 @@
 use super::State;
 use super::cell::Cell;
 use super::decide::{Around, Next, Root, decide};
-use super::node::{Ended, Node, Prepared, Told};
+use super::node::{Composition, Ended, Node, Prepared, Told};
 use super::outcome::{TaskEvent, TaskOutcome};
 use super::spawn::{Prepare, spawn};
 use crate::files::Task;
@@ -111,13 +111,20 @@ fn run_skill(world: &mut World, step: Entity, number: usize, failed_before: bool
     }
     assignment.recording = assignment.recording.map(|path| numbered(&path, number, &name));
     let run = world.spawn((assignment, requires, ChildOf(step))).id();
-    if failed_before {
+    // With one object after another the hand goes out of the camera's view in between.
+    let in_turn = number > 1 && composition_around(world, step) == Some(Composition::Visible);
+    if failed_before || in_turn {
         world.entity_mut(run).insert(Withdraw);
     }
     let outcome = carry_out(world, run);
     let ended = Ended { done: outcome.failed_at.is_none(), reason: outcome.reason.clone() };
     world.entity_mut(run).insert(Told(outcome));
     ended
+}
+
+fn composition_around(world: &World, step: Entity) -> Option<Composition> {
+    let around = world.get::<ChildOf>(step)?.parent();
+    Some(world.get::<Node>(around)?.composition)
 }
 
 /// What lies before the robot in `step`: what was laid there as the nearest of the steps around

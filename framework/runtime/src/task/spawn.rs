@@ -50,6 +50,7 @@ fn spawn_step<E>(
         Work::Skill(_) => Composition::Skill,
         Work::Sequence(_) => Composition::Sequence,
         Work::Fallback(_) => Composition::Fallback,
+        Work::Visible(_) => Composition::Visible,
     };
     let node = Node {
         name: step.name.clone(),
@@ -65,8 +66,9 @@ fn spawn_step<E>(
             world.entity_mut(node).insert(Prepared { assignment, requires });
             Ok(())
         }
-        Work::Sequence(steps) | Work::Fallback(steps) => {
-            steps.iter().try_for_each(|step| spawn_step(world, step, node, depth + 1, prepare))
+        work => {
+            let mut steps = work.steps().iter();
+            steps.try_for_each(|step| spawn_step(world, step, node, depth + 1, prepare))
         }
     }
 }

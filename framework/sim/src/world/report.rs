@@ -113,10 +113,11 @@ impl World {
         self.surroundings.head.map(|head| self.clearance(&head.bodies(0.0)))
     }
 
-    /// Smallest distance of the object's surface from the hook's peg, metres, negative
+    /// Smallest distance of the object's surface from any hook's peg, metres, negative
     /// inside; `None` without a hook.
     pub fn min_signed_distance_to_peg(&self) -> Option<f64> {
-        self.surroundings.hook.map(|hook| self.clearance(&hook.peg(0.0)))
+        let pegs = self.surroundings.hooks.iter().map(|hook| self.clearance(&hook.peg(0.0)));
+        pegs.min_by(f64::total_cmp)
     }
 
     /// Smallest distance of any sample of the object from any of `bodies`, metres.
