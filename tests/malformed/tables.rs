@@ -16,10 +16,12 @@ struct Table {
     file: &'static str,
 }
 
-const TABLES: [Table; 6] = [
+const TABLES: [Table; 8] = [
     Table { name: "skill", file: "skills/cap-wearing.toml" },
     Table { name: "task", file: "skills/tasks/dress.toml" },
     Table { name: "scene", file: "scenes/head.toml" },
+    Table { name: "tidy-caps", file: "skills/tasks/tidy-caps.toml" },
+    Table { name: "hooks", file: "scenes/hooks.toml" },
     Table { name: "robot", file: "robots/ur5-ag95-sim.toml" },
     Table { name: "urdf", file: "robots/ur5-ag95.urdf" },
     Table { name: "manifest", file: "libfamous.so.toml" },

@@ -54,7 +54,11 @@ impl Bench {
             "skills/cap-wearing.toml",
             "skills/cap-wearing/demonstration.ply",
             "skills/tasks/dress.toml",
+            "skills/cap-hanging.toml",
+            "skills/cap-hanging/demonstration.ply",
+            "skills/tasks/tidy-caps.toml",
             "scenes/head.toml",
+            "scenes/hooks.toml",
             "robots/ur5-ag95-sim.toml",
             "robots/ur5-ag95.urdf",
         ] {

@@ -10,12 +10,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The sound files that are spoilt.
-const FILES: [(&str, Family); 7] = [
+const FILES: [(&str, Family); 10] = [
     ("skills/cap-wearing.toml", Family::Skill),
     ("skills/cap-handing-over.toml", Family::Skill),
+    ("skills/cap-hanging.toml", Family::Skill),
     ("skills/tasks/dress.toml", Family::Task),
+    ("skills/tasks/tidy-caps.toml", Family::Task),
     ("scenes/head.toml", Family::Scene),
     ("scenes/hook.toml", Family::Scene),
+    ("scenes/hooks.toml", Family::Scene),
     ("robots/ur5-ag95-sim.toml", Family::Robot),
     ("skills/tasks/every-way.toml", Family::Task),
 ];
@@ -131,6 +134,7 @@ fn copies() -> tempfile::TempDir {
     let others = [
         "skills/cap-wearing/demonstration.ply",
         "skills/cap-handing-over/demonstration.ply",
+        "skills/cap-hanging/demonstration.ply",
         "robots/ur5-ag95.urdf",
     ];
     for name in FILES.iter().map(|(name, _)| *name).chain(others) {
@@ -248,10 +252,9 @@ fn task(task: &Task) {
 fn step(of: &TaskStep) {
     within(of.tries as f64, 1.0, 20.0);
     assert!(of.objects.len() <= 100);
-    if let Work::Sequence(steps) | Work::Fallback(steps) = &of.work {
-        assert!(!steps.is_empty());
-        steps.iter().for_each(step);
-    }
+    let steps = of.work.steps();
+    assert_eq!(steps.is_empty(), matches!(of.work, Work::Skill(_)));
+    steps.iter().for_each(step);
 }
 
 fn scene(scene: &Scene) {
@@ -265,7 +268,7 @@ fn scene(scene: &Scene) {
         within(head.friction, 0.0, 2.0);
         head.size.semi_axes_m().iter().for_each(|axis| within(*axis, 0.05, 0.15));
     }
-    if let Some(hook) = scene.hook() {
+    for hook in scene.hooks() {
         pose(&hook.pose);
         within(hook.friction, 0.0, 2.0);
         within(hook.peg.length_m(), 0.06, 0.16);
@@ -277,6 +280,11 @@ fn scene(scene: &Scene) {
     scene.drop.centre.iter().for_each(|v| within(*v, -5.0, 5.0));
     scene.drop.half_extents_m.iter().for_each(|v| within(*v, 0.01, 5.0));
     within(scene.drop.crop_height_m, 0.01, 5.0);
+    scene.drop.apart_m.iter().for_each(|apart| within(*apart, 0.01, 1.0));
+    assert!(scene.beside.is_empty() || scene.head().is_none());
+    for one in &scene.beside {
+        one.centre.iter().for_each(|v| within(*v, -5.0, 5.0));
+    }
     scene.standing.iter().for_each(|solid| pose(&solid.pose));
 }
 

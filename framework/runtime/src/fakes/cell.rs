@@ -48,6 +48,8 @@ pub(crate) struct Behaviour {
     pub(crate) holds: bool,
     /// Whether it ends badly although nothing failed.
     pub(crate) spoils: bool,
+    /// Whether nothing is in sight any more once the hand closed.
+    pub(crate) clears: bool,
 }
 
 pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginError> {
@@ -56,17 +58,18 @@ pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginErro
     if fails { Err(PluginError::Internal(format!("broken {step}"))) } else { Ok(()) }
 }
 
-struct FakeCamera(Behaviour, Cloud);
+struct FakeCamera(Behaviour, Cloud, Moved);
 
 impl Camera for FakeCamera {
     fn observe(&mut self) -> Result<Observation, PluginError> {
         broken(&self.0, "observe")?;
-        let cloud = if self.0.blind { Cloud::default() } else { self.1.clone() };
+        let cleared = self.0.clears && self.2.load(Ordering::Relaxed);
+        let cloud = if self.0.blind || cleared { Cloud::default() } else { self.1.clone() };
         Ok(Observation { depth: None, cloud, camera_position: Point3::new(0.9, -0.4, 0.6) })
     }
 }
 
-/// Whether the robot ever moved, for the judge to see.
+/// Whether the robot ever moved, for the judge to see; or ever closed its hand, for the camera.
 type Moved = Arc<AtomicBool>;
 
 struct FakeRobot {
@@ -75,6 +78,7 @@ struct FakeRobot {
     opening_m: f64,
     holding: bool,
     moved: Moved,
+    closed: Moved,
 }
 
 impl Robot for FakeRobot {
@@ -87,6 +91,7 @@ impl Robot for FakeRobot {
         self.moved.store(true, Ordering::Relaxed);
         match action {
             Action::Grip(GripperCommand::Close { .. }) => {
+                self.closed.store(true, Ordering::Relaxed);
                 self.holding = self.behaviour.misses == 0;
                 self.behaviour.misses = self.behaviour.misses.saturating_sub(1);
                 self.opening_m = if self.holding { 0.003 } else { 0.0 };
@@ -202,10 +207,10 @@ impl FakeCell {
     }
 
     pub(crate) fn plugins(&self, behaviour: Behaviour) -> Plugins {
-        let moved = Moved::default();
+        let (moved, closed) = (Moved::default(), Moved::default());
         let seen = Cloud::new(canonical_cloud(&self.placed[1]).points).unwrap();
         Plugins {
-            camera: Box::new(FakeCamera(behaviour, seen)),
+            camera: Box::new(FakeCamera(behaviour, seen, closed.clone())),
             perception: Box::new(FakePerception(behaviour)),
             encoding: Box::new(FakeEncoding(behaviour)),
             alignment: Box::new(LeastSquares),
@@ -218,6 +223,7 @@ impl FakeCell {
                 opening_m: 0.03,
                 holding: behaviour.holds,
                 moved: moved.clone(),
+                closed,
             }),
             judge: Some(Box::new(FakeJudge(behaviour, moved))),
         }

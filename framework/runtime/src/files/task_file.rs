@@ -244,6 +244,11 @@ impl Reader<'_> {
                 let cause = format!("{frame:?} has fewer targets than another frame");
                 self.resolver.fault(Fault::Order, targets.span(), cause);
             }
+            let mut taken = BTreeSet::new();
+            if let Some(again) = targets.get_ref().iter().find(|t| !taken.insert(t.get_ref())) {
+                let cause = format!("{:?} is a target twice", again.get_ref());
+                self.resolver.fault(Fault::Order, again.span(), cause);
+            }
             for ((name, used), target) in steps.iter_mut().zip(targets.get_ref()) {
                 let target = self.resolver.name("for_each_visible", target);
                 *name += &format!("-{target}");

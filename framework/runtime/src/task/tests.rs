@@ -1,5 +1,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod visible;
+
 use super::node::Composition;
 use super::*;
 use crate::fakes::{Behaviour, FakeCell};
@@ -50,6 +52,7 @@ const WELL: Behaviour = Behaviour {
     blind: false,
     holds: false,
     spoils: false,
+    clears: false,
 };
 const MISS: Behaviour = Behaviour { misses: 1, ..WELL };
 const BLIND: Behaviour = Behaviour { blind: true, ..WELL };
