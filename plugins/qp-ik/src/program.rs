@@ -62,7 +62,7 @@ impl QuadraticProgram {
             iterative_refinement_enable: false,
             ..DefaultSettings::default()
         };
-        let solver = DefaultSolver::new(
+        let mut solver = DefaultSolver::new(
             &hessian,
             &gradient,
             &constraints,
@@ -71,6 +71,9 @@ impl QuadraticProgram {
             settings,
         )
         .expect("the sizes fit each other");
+        // Every solve empties the solver's own table of timers, which would allocate it anew; the
+        // tables below a timer that never ends stay.
+        solver.timers.iter_mut().for_each(|timers| timers.start_as_current("programs"));
         Self { solver, hessian: hessian.nzval, gradient, constraints: constraints.nzval, bounds }
     }
 

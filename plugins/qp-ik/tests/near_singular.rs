@@ -45,7 +45,7 @@ fn no_answer_depends_on_the_questions_before_it() {
 }
 
 #[test]
-fn a_program_allocates_nothing_but_the_solvers_own_clock() {
+fn a_program_allocates_nothing() {
     let robot = ur5();
     let mut rng = generator(3, "near-singular");
     let problems: Vec<_> = (0..50).map(|_| near_singular(&robot, &mut rng)).collect();
@@ -57,8 +57,7 @@ fn a_program_allocates_nothing_but_the_solvers_own_clock() {
             assert!(program.solve(&owned.problem(), &mut x));
         }
     });
-    // clarabel empties its table of timers at the start of every solve and fills it anew.
-    assert!(counted.count_total <= 50 && counted.count_max <= 1, "{counted:?}");
+    assert_eq!(counted.count_total, 0, "{counted:?}");
 }
 
 #[test]
