@@ -15,7 +15,7 @@ fn an_untrusted_or_damaged_library_is_refused() {
     refused("no library to trust", &bench, &trusted, "L005", &["libmine.so"]);
     let manifest = |size: usize, hash: &str| {
         format!(
-            "schema = 2\nabi_major = 2\nsize_bytes = {size}\nblake3 = \"{hash}\"\n\
+            "schema = 2\nabi_major = 3\nsize_bytes = {size}\nblake3 = \"{hash}\"\n\
              [[plugin]]\nname = \"mine\"\nkind = \"alignment\"\nversion = \"1\"\n"
         )
     };

@@ -2,12 +2,15 @@
 
 use crate::body::{Body, Kind, bodies, pairs};
 use crate::convex::Gap;
-use crate::{Convex, Margins, Placed, Rules};
-use nalgebra::{Isometry3, Translation3, Vector3};
+use crate::{Convex, Margins, Placed, Room, Rules};
+use nalgebra::{Isometry3, Vector3};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
 use seeone_plugin::{Clearance, Contact, Proximity};
+
+/// Distances are searched for and are right to less than this, metres.
+const ROUNDING_M: f64 = 1e-4;
 
 /// A body that stands in `world`.
 struct Standing {
@@ -26,7 +29,6 @@ pub struct Checker<'a> {
     /// Height of the table and how far the robot may sink into it.
     tables: Vec<(f64, f64)>,
     standing: Vec<Standing>,
-    held_centre: Translation3<f64>,
 }
 
 impl<'a> Checker<'a> {
@@ -45,7 +47,6 @@ impl<'a> Checker<'a> {
             bodies,
             tables: Vec::new(),
             standing: Vec::new(),
-            held_centre: Translation3::new(0.0, 0.0, margins.held_ahead_m),
         };
         for obstacle in obstacles {
             match obstacle {
@@ -63,7 +64,8 @@ impl<'a> Checker<'a> {
     }
 
     /// The same with a body in the hand, e.g. the hull of the cloud that was seen of it, in
-    /// the tool frame: it keeps away from what the arm keeps away from, and from the arm.
+    /// the closed hand's tool frame: it keeps away from what the arm keeps away from, and from
+    /// the arm.
     #[must_use]
     pub fn carrying(mut self, shape: Convex) -> Self {
         let link = self.robot.joints().len();
@@ -74,22 +76,30 @@ impl<'a> Checker<'a> {
         self
     }
 
+    /// How near what is carried may come to each thing on a move whose ends are these poses of
+    /// the closed hand's tool: what it touches there it is meant to touch, and what it is near to it
+    /// may be near to all the way. From the rest it keeps its margin.
+    pub fn room(&self, ends: [&Pose; 2]) -> Room {
+        let held = || self.bodies.iter().filter(|body| body.kind == Kind::Held);
+        let least = |distance: &dyn Fn(&Placed) -> f64| {
+            let at_ends = ends.iter().flat_map(|end| held().map(|body| body.shape.at(**end)));
+            let allowed = at_ends.map(|placed| distance(&placed) - ROUNDING_M);
+            allowed.fold(self.margins.carried_m, f64::min)
+        };
+        Room {
+            tables: (self.tables.iter())
+                .map(|(height, _)| least(&|placed| placed.lowest().z - height))
+                .collect(),
+            standing: (self.standing.iter())
+                .map(|standing| least(&|placed| placed.distance(&standing.placed())))
+                .collect(),
+        }
+    }
+
     /// The first pair found that is too near at `q`, if there is one.
     pub fn contact_under(&self, q: &[f64], rules: &Rules) -> Option<Contact> {
         let placed = self.placed(q);
-        self.with_obstacles(&placed, rules)
-            .or_else(|| rules.held_radius_m.and_then(|radius| self.with_held(q, radius)))
-            .or_else(|| self.with_itself(&placed))
-    }
-
-    /// Distance from what hangs in the hand (its centre) to the nearest obstacle, metres.
-    pub fn held_clearance(&self, q: &[f64]) -> f64 {
-        let pose = self.robot.tool_pose(q) * self.held_centre;
-        let point = Convex::ball(0.0);
-        let centre = point.at(pose);
-        let tables = self.tables.iter().map(|(height, _)| pose.translation.z - height);
-        let standing = self.standing.iter().map(|standing| centre.distance(&standing.placed()));
-        tables.chain(standing).fold(f64::INFINITY, f64::min)
+        self.with_obstacles(&placed, rules).or_else(|| self.with_itself(&placed))
     }
 
     /// Names of the bodies that it compares at all, each pair once.
@@ -118,31 +128,29 @@ impl<'a> Checker<'a> {
     }
 
     fn with_obstacles(&self, placed: &[Placed], rules: &Rules) -> Option<Contact> {
-        let wanted_m = self.margins.clearance_m;
         for (body, placed) in self.moving(placed) {
-            for floor in self.tables.iter().map(|(height, soft)| height - soft) {
-                if placed.floor() < floor {
-                    let distance_m = placed.lowest().z - floor;
-                    if distance_m < 0.0 {
-                        return Some(contact(&body.name, "table", distance_m, 0.0));
+            let room = rules.room.filter(|_| body.kind == Kind::Held);
+            for (index, (height, soft)) in self.tables.iter().enumerate() {
+                let (top, wanted_m) =
+                    room.map_or((height - soft, 0.0), |room| (*height, room.tables[index]));
+                if placed.floor() < top + wanted_m {
+                    let distance_m = placed.lowest().z - top;
+                    if distance_m < wanted_m {
+                        return Some(contact(&body.name, "table", distance_m, wanted_m));
                     }
                 }
             }
             if rules.fingers_may_touch && body.kind == Kind::Finger {
                 continue;
             }
-            for standing in &self.standing {
+            for (index, standing) in self.standing.iter().enumerate() {
+                let wanted_m = room.map_or(self.margins.clearance_m, |room| room.standing[index]);
                 if let Some(lack) = placed.lack(&standing.placed(), wanted_m) {
                     return Some(contact(&body.name, &standing.name, wanted_m - lack, wanted_m));
                 }
             }
         }
         None
-    }
-
-    fn with_held(&self, q: &[f64], radius: f64) -> Option<Contact> {
-        let distance_m = self.held_clearance(q);
-        (distance_m < radius).then(|| contact("held", "obstacle", distance_m, radius))
     }
 
     fn with_itself(&self, placed: &[Placed]) -> Option<Contact> {

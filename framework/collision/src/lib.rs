@@ -18,4 +18,4 @@ mod tests;
 pub use checker::Checker;
 pub use convex::{Convex, Placed};
 pub use pairs::{Pairs, SAMPLES, sampled};
-pub use rules::{Margins, Rules};
+pub use rules::{Margins, Room, Rules};

@@ -2,19 +2,28 @@
 
 /// What is let pass at a posture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rules {
+pub struct Rules<'a> {
     /// The fingers may touch obstacles other than the table.
     pub fingers_may_touch: bool,
-    /// A ball about what hangs in the hand keeps this far from every obstacle, metres from
-    /// its centre.
-    pub held_radius_m: Option<f64>,
+    /// How near what is carried may come to things; left out, as near as the arm may.
+    pub room: Option<&'a Room>,
 }
 
-/// Distances of a checker.
+/// How near what is carried may come to each thing, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Room {
+    /// Above each table's top.
+    pub(crate) tables: Vec<f64>,
+    /// From each thing that stands there.
+    pub(crate) standing: Vec<f64>,
+}
+
+/// Distances that are kept from obstacles, metres. From itself the robot keeps none, nor the arm
+/// from the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Margins {
-    /// What the robot keeps from obstacles, metres. From itself and the table it keeps none.
+    /// Of the robot.
     pub clearance_m: f64,
-    /// How far ahead of the tool frame the centre of what hangs in the hand is, metres.
-    pub held_ahead_m: f64,
+    /// Of what it carries, which sways and sags.
+    pub carried_m: f64,
 }

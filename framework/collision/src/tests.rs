@@ -17,7 +17,7 @@ fn ur5() -> RobotModel {
 }
 
 fn checker<'a>(robot: &'a RobotModel, obstacles: &[Obstacle]) -> Checker<'a> {
-    let margins = Margins { clearance_m: 0.005, held_ahead_m: 0.08 };
+    let margins = Margins { clearance_m: 0.005, carried_m: 0.03 };
     Checker::new(robot, margins, obstacles, 0.05)
 }
 

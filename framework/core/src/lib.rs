@@ -8,6 +8,7 @@
 pub mod camera;
 pub mod cloud;
 pub mod diagnostic;
+pub mod extremes;
 pub mod formats;
 pub mod frames;
 pub mod head;
@@ -23,6 +24,7 @@ pub mod winding;
 pub use camera::{DepthImage, Intrinsics};
 pub use cloud::Cloud;
 pub use diagnostic::{Diagnostic, Place};
+pub use extremes::extremes;
 pub use head::HeadSize;
 pub use hook::Peg;
 pub use mesh::TriangleMesh;

@@ -27,7 +27,7 @@
 /**
  * Must be equal on both sides: layouts, messages or meanings changed.
  */
-#define SEEONE_ABI_MAJOR 2
+#define SEEONE_ABI_MAJOR 3
 
 /**
  * May differ: functions were appended to the end of a table, whose `size` tells.
@@ -129,7 +129,8 @@ enum SeeoneMethod
   SeeoneMethod_Solve = 9,
   /**
    * Motion, lent kinematics: the robot or none (the one of the setup), start joints,
-   * whether holding, key poses, obstacles `->` 1, program, cost; or 0, stage, reason.
+   * whether holding, points of what is carried, key poses, obstacles `->` 1, program, cost; or
+   * 0, stage, reason.
    */
   SeeoneMethod_Plan = 10,
   /**

@@ -61,6 +61,10 @@ pub struct MotionTask<'a> {
     pub start: &'a [f64],
     /// Whether something is in the hand.
     pub holding: bool,
+    /// Points of what is in the hand, or will be once it has closed, in the closed hand's tool
+    /// frame, metres: their convex hull keeps away from what it is not brought to on purpose.
+    /// None where nobody knows.
+    pub carried: &'a [Point3<f64>],
     /// The key poses, in order.
     pub key_poses: &'a [KeyPose],
     /// What must not be touched.
@@ -71,14 +75,18 @@ impl MotionTask<'_> {
     /// Refuses what no planner can work on, so that every implementation refuses alike.
     ///
     /// # Errors
-    /// [`PluginError::Input`] for a start of the wrong length or outside the limits, and for a
-    /// key pose with a pose, length, force or opening that is none.
+    /// [`PluginError::Input`] for a start of the wrong length or outside the limits, for what is
+    /// carried with a point that is none, and for a key pose with a pose, length, force or
+    /// opening that is none.
     pub fn check(&self, robot: &RobotModel) -> Result<(), PluginError> {
         let told = |cause: String| Err(PluginError::Input(cause));
         if !robot.within_limits(self.start) {
             return told(
                 "the start must have one position within the limits for each joint".into(),
             );
+        }
+        if !self.carried.iter().all(|point| point.iter().all(|v| v.is_finite())) {
+            return told("a point of what is carried is not finite".into());
         }
         for key in self.key_poses {
             let lengths = [key.approach_m, key.retreat_m, key.lift_m, key.opening_m];

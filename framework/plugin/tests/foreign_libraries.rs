@@ -25,7 +25,7 @@ fn refusal(source: &str) -> String {
     let untrusted = Manifest::write_for(&path).expect_err("no plugin").to_string();
     let bytes = fs::read(&path).expect("there");
     let manifest = format!(
-        "schema = 2\nabi_major = 2\nsize_bytes = {}\nblake3 = \"{}\"\n\
+        "schema = 2\nabi_major = 3\nsize_bytes = {}\nblake3 = \"{}\"\n\
          [[plugin]]\nname = \"foreign\"\nkind = \"alignment\"\nversion = \"1\"\n",
         bytes.len(),
         blake3::hash(&bytes)

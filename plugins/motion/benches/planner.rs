@@ -24,7 +24,7 @@ use std::time::Instant;
 const PAIRS: usize = 200;
 const RUNS: usize = 3;
 /// The arm's distance from everything, metres.
-const MARGINS: Margins = Margins { clearance_m: 0.005, held_ahead_m: 0.08 };
+const MARGINS: Margins = Margins { clearance_m: 0.005, carried_m: 0.03 };
 
 fn ur5() -> RobotModel {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5-ag95.urdf");

@@ -36,10 +36,9 @@ pub struct MotionConfig {
     pub clearance_m: f64,
     /// Within this distance of a key pose the fingers may touch obstacles, metres.
     pub finger_zone_m: f64,
-    /// What hangs in the hand is taken for a ball of this radius, metres ...
-    pub held_radius_m: f64,
-    /// ... whose centre lies this far ahead of the tool frame, metres.
-    pub held_ahead_m: f64,
+    /// Distance that what is carried keeps from what it is not brought to, metres: it sways and
+    /// sags, and no more of it is known than was seen.
+    pub carried_clearance_m: f64,
     /// Branches of the arm that are tried for each key pose.
     pub branches: usize,
     /// Most extensions of the random trees for one transit: what is not found by then is not found
@@ -65,8 +64,7 @@ impl Default for MotionConfig {
             joint_step_rad: 0.05,
             clearance_m: 0.005,
             finger_zone_m: 0.15,
-            held_radius_m: 0.12,
-            held_ahead_m: 0.08,
+            carried_clearance_m: 0.03,
             branches: 8,
             extensions: 1000,
             shortcuts: 60,
@@ -77,7 +75,7 @@ impl Default for MotionConfig {
 impl MotionConfig {
     /// The distances that are kept.
     pub(crate) fn margins(&self) -> Margins {
-        Margins { clearance_m: self.clearance_m, held_ahead_m: self.held_ahead_m }
+        Margins { clearance_m: self.clearance_m, carried_m: self.carried_clearance_m }
     }
 
     /// # Errors
@@ -99,8 +97,7 @@ impl MotionConfig {
             ("near_m", self.near_m),
             ("clearance_m", self.clearance_m),
             ("finger_zone_m", self.finger_zone_m),
-            ("held_radius_m", self.held_radius_m),
-            ("held_ahead_m", self.held_ahead_m),
+            ("carried_clearance_m", self.carried_clearance_m),
         ];
         let told = |cause: String| Err(PluginError::Configuration(cause));
         if let Some((name, value)) = positive.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {

@@ -9,7 +9,7 @@ use crate::rrt::distance;
 use crate::script::Script;
 use crate::transit::{Style, transit};
 use crate::walk::{Walk, Walker};
-use seeone_collision::Checker;
+use seeone_collision::Convex;
 use seeone_core::pose::difference;
 use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
@@ -31,6 +31,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) robot: &'a RobotModel,
     pub(crate) kinematics: &'a dyn Kinematics,
     pub(crate) task: &'a MotionTask<'a>,
+    /// The hull of what the hand takes, in the closed hand's tool frame.
+    pub(crate) carried: Option<Convex>,
 }
 
 /// A run of key poses joined by lines, and the hand on the way to it.
@@ -49,7 +51,7 @@ impl Group<'_> {
 
 impl<'a> Plan<'a> {
     /// The program and its cost.
-    pub(crate) fn solve(&self) -> Result<(Program, f64), StageFailure> {
+    pub(crate) fn solve(&'a self) -> Result<(Program, f64), StageFailure> {
         let groups = self.groups();
         // Reach first: most tasks that fail do so here, and it is cheap.
         for group in &groups {
@@ -74,7 +76,7 @@ impl<'a> Plan<'a> {
     /// The best branch for a group on which its lines can be followed, and the transit to
     /// its first posture.
     fn enter(
-        &self,
+        &'a self,
         group: &Group<'a>,
         at: &[f64],
     ) -> Result<(Vec<Vec<f64>>, Walk<'a>), StageFailure> {
@@ -105,7 +107,7 @@ impl<'a> Plan<'a> {
 
     /// The postures in which the arm can stand at a group's first key pose, at least one:
     /// that in which it stands there already, or all.
-    fn postures(&self, group: &Group<'a>, near: &[f64]) -> Result<Vec<Vec<f64>>, StageFailure> {
+    fn postures(&'a self, group: &Group<'a>, near: &[f64]) -> Result<Vec<Vec<f64>>, StageFailure> {
         let (pose, count) = (&group.keys[0].pose, self.config.branches);
         let (distance_m, angle_rad) = difference(&self.robot.tool_pose(near), pose);
         if group.keys[0].approach_m == 0.0 && distance_m < HERE_M && angle_rad < HERE_RAD {
@@ -144,20 +146,14 @@ impl<'a> Plan<'a> {
     }
 
     fn transit(
-        &self,
-        group: &Group,
+        &'a self,
+        group: &Group<'a>,
         start: &[f64],
         goal: &[f64],
     ) -> Result<Vec<Vec<f64>>, Failure> {
-        let checker = Checker::new(
-            self.robot,
-            self.config.margins(),
-            self.task.obstacles,
-            group.hand.opening_m,
-        );
+        let checker = self.walker(group).checker(&group.hand);
         let mut rng = generator(self.seed, &format!("motion/{}", group.stage()));
-        let (style, holding) = (self.style, group.hand.holding);
-        transit(self.robot, self.config, &checker, holding, style, (start, goal), &mut rng)
+        transit(self.robot, self.config, &checker, self.style, (start, goal), &mut rng)
     }
 
     /// The key poses in runs that straight lines join.
@@ -176,12 +172,13 @@ impl<'a> Plan<'a> {
         groups
     }
 
-    fn walker(&self, group: &Group<'a>) -> Walker<'a> {
+    fn walker(&'a self, group: &Group<'a>) -> Walker<'a> {
         Walker {
             robot: self.robot,
             kinematics: self.kinematics,
             config: self.config,
             obstacles: self.task.obstacles,
+            carried: self.carried.as_ref(),
             keys: group.keys,
             hand: group.hand,
         }

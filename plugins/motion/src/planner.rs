@@ -4,7 +4,7 @@ use crate::MotionConfig;
 use crate::hand::Hand;
 use crate::plan::Plan;
 use crate::transit::{Style, transit};
-use seeone_collision::Checker;
+use seeone_collision::{Checker, Convex};
 use seeone_core::random::generator;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
@@ -40,8 +40,8 @@ impl Planner {
         Self::new(setup.configuration()?, setup.seed)
     }
 
-    /// A free path of straight lines in joint space from `start` to `goal`, radians, with an
-    /// empty hand among what `checker` knows.
+    /// A free path of straight lines in joint space from `start` to `goal`, radians, among what
+    /// `checker` knows.
     ///
     /// # Errors
     /// What is in the way.
@@ -57,7 +57,7 @@ impl Planner {
     ) -> Result<Vec<Vec<f64>>, String> {
         let Planning { config, seed, style } = &self.0;
         let mut rng = generator(*seed, "motion/free");
-        transit(robot, config, checker, false, *style, (start, goal), &mut rng)
+        transit(robot, config, checker, *style, (start, goal), &mut rng)
             .map_err(|failure| failure.to_string())
     }
 }
@@ -113,7 +113,8 @@ impl Planning {
         let (config, seed, style) = (&self.config, self.seed, self.style);
         let key_poses = of_the_closed_hand(robot, task);
         let task = &MotionTask { key_poses: &key_poses, ..*task };
-        let plan = Plan { config, seed, style, robot, kinematics, task };
+        let carried = Convex::hull(task.carried);
+        let plan = Plan { config, seed, style, robot, kinematics, task, carried };
         match plan.solve() {
             Ok((program, cost)) => Ok(MotionOutcome::Planned { program, cost }),
             Err(failure) => failure.outcome(),

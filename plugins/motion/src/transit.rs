@@ -21,7 +21,8 @@ pub(crate) enum Style {
     Planned,
 }
 
-/// A free path of straight lines in joint space from `start` to `goal`. What hangs in the hand stays as far from obstacles as the two ends allow.
+/// A free path of straight lines in joint space from `start` to `goal`. What
+/// is carried stays as far from obstacles as the two ends allow.
 ///
 /// # Errors
 /// What is in the way.
@@ -29,15 +30,12 @@ pub(crate) fn transit(
     robot: &RobotModel,
     config: &MotionConfig,
     checker: &Checker,
-    holding: bool,
     style: Style,
     (start, goal): (&[f64], &[f64]),
     rng: &mut Generator,
 ) -> Result<Vec<Vec<f64>>, Failure> {
-    let ends = || checker.held_clearance(start).min(checker.held_clearance(goal));
-    // The margin is for rounding: the ends themselves must pass.
-    let held_radius_m = holding.then(|| config.held_radius_m.min(ends() - 1e-6));
-    let rules = Rules { fingers_may_touch: false, held_radius_m };
+    let room = checker.room([&robot.tool_pose(start), &robot.tool_pose(goal)]);
+    let rules = Rules { fingers_may_touch: false, room: Some(&room) };
     let blocked = |a: &[f64], b: &[f64]| first_contact(config, checker, &rules, a, b);
     for (end, name) in [(start, "start"), (goal, "end")] {
         if let Some(contact) = checker.contact_under(end, &rules) {

@@ -6,7 +6,7 @@ use crate::failure::{Failure, StageFailure};
 use crate::hand::Hand;
 use crate::line::Line;
 use nalgebra::{Translation3, Vector3};
-use seeone_collision::{Checker, Rules};
+use seeone_collision::{Checker, Convex, Rules};
 use seeone_core::Pose;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
@@ -35,6 +35,8 @@ pub(crate) struct Walker<'a> {
     pub(crate) kinematics: &'a dyn Kinematics,
     pub(crate) config: &'a MotionConfig,
     pub(crate) obstacles: &'a [Obstacle],
+    /// What is between the fingers once they have closed.
+    pub(crate) carried: Option<&'a Convex>,
     /// Key poses joined by straight lines, at least one.
     pub(crate) keys: &'a [KeyPose],
     /// The hand on the way to the first.
@@ -60,8 +62,10 @@ impl<'a> Walker<'a> {
     /// # Errors
     /// What it would touch.
     pub(crate) fn stands(&self, q: &[f64]) -> Result<(), Failure> {
-        let rules = Rules { fingers_may_touch: true, held_radius_m: None };
-        match self.checker(&self.hand).contact_under(q, &rules) {
+        let (checker, tool) = (self.checker(&self.hand), self.robot.tool_pose(q));
+        let room = checker.room([&tool, &tool]);
+        let rules = Rules { fingers_may_touch: true, room: Some(&room) };
+        match checker.contact_under(q, &rules) {
             Some(contact) => Err(Failure::Infeasible(contact.to_string())),
             None => Ok(()),
         }
@@ -109,11 +113,18 @@ impl<'a> Walker<'a> {
         Ok(walk)
     }
 
-    fn checker(&self, hand: &Hand) -> Checker<'a> {
-        Checker::new(self.robot, self.config.margins(), self.obstacles, hand.opening_m)
+    /// What the hand in this state touches.
+    pub(crate) fn checker(&self, hand: &Hand) -> Checker<'a> {
+        let (margins, obstacles) = (self.config.margins(), self.obstacles);
+        let checker = Checker::new(self.robot, margins, obstacles, hand.opening_m);
+        match self.carried {
+            Some(shape) if hand.holding => checker.carrying(shape.clone()),
+            _ => checker,
+        }
     }
 
-    /// A line that touches nothing but, with the fingers, near the key poses.
+    /// A line that touches nothing but, with the fingers, near the key poses, and with what is
+    /// carried what that touches at the ends.
     fn line(
         &self,
         key: &KeyPose,
@@ -123,12 +134,13 @@ impl<'a> Walker<'a> {
         hand: &Hand,
     ) -> Result<Vec<Vec<f64>>, StageFailure> {
         let checker = self.checker(hand);
+        let room = checker.room([&self.robot.tool_pose(start), target]);
         let fault = |q: &[f64]| {
             let tool = self.robot.tool_pose(q).translation.vector;
             let mut distances =
                 self.keys.iter().map(|key| (key.pose.translation.vector - tool).norm());
             let near = distances.any(|distance| distance <= self.config.finger_zone_m + 1e-6);
-            let rules = Rules { fingers_may_touch: near, held_radius_m: None };
+            let rules = Rules { fingers_may_touch: near, room: Some(&room) };
             checker.contact_under(q, &rules).map(|contact| contact.to_string())
         };
         let (robot, kinematics, step_m) = (self.robot, self.kinematics, self.config.line_step_m);

@@ -8,12 +8,15 @@
 //! (the UR family), and from seeded draws otherwise. Of several answers the one is taken that
 //! touches nothing, is near the start, away from limits and away from singularities.
 
+mod cholesky;
 mod closed_form;
 mod config;
 mod damped;
 mod descent;
+mod finish;
 mod linearised;
 mod normal;
+mod problem;
 mod program;
 mod quadratic;
 mod reason;
@@ -26,5 +29,6 @@ mod tests;
 
 pub use closed_form::ClosedForm;
 pub use config::IkConfig;
-pub use program::{Problem, QuadraticProgram};
+pub use problem::Problem;
+pub use program::QuadraticProgram;
 pub use solver::{DampedLeastSquares, QpIk};

@@ -1,6 +1,7 @@
 //! The normal equations of one step: what both solvers start from.
 
 use crate::IkConfig;
+use crate::cholesky::Cholesky;
 use crate::linearised::Linearised;
 use nalgebra::{DMatrix, DVector};
 
@@ -12,8 +13,7 @@ pub(crate) struct Normal {
     posture: f64,
     pub(crate) hessian: DMatrix<f64>,
     pub(crate) pull: DVector<f64>,
-    /// The Hessian's Cholesky factor, in the lower triangle.
-    factor: DMatrix<f64>,
+    factor: Cholesky,
 }
 
 impl Normal {
@@ -23,7 +23,7 @@ impl Normal {
             posture: config.posture,
             hessian: DMatrix::zeros(joints, joints),
             pull: DVector::zeros(joints),
-            factor: DMatrix::zeros(joints, joints),
+            factor: Cholesky::new(joints),
         }
     }
 
@@ -40,24 +40,11 @@ impl Normal {
 
     /// Solves them into `step` and says whether the Hessian is definite enough for that.
     pub(crate) fn solve(&mut self, step: &mut DVector<f64>) -> bool {
-        // nalgebra's own factorisation takes its matrix by value, which allocates one a step.
-        let n = step.len();
-        for column in 0..n {
-            for row in column..n {
-                let known: f64 =
-                    (0..column).map(|k| self.factor[(row, k)] * self.factor[(column, k)]).sum();
-                let rest = self.hessian[(row, column)] - known;
-                if row > column {
-                    self.factor[(row, column)] = rest / self.factor[(column, column)];
-                } else if rest > 0.0 {
-                    self.factor[(row, row)] = rest.sqrt();
-                } else {
-                    return false;
-                }
-            }
+        if self.factor.set(&self.hessian, step.len()).is_err() {
+            return false;
         }
         step.copy_from(&self.pull);
-        self.factor.solve_lower_triangular_mut(step)
-            && self.factor.tr_solve_lower_triangular_mut(step)
+        self.factor.solve(step);
+        true
     }
 }

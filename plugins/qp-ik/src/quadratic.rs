@@ -1,10 +1,10 @@
 //! The step as a quadratic program.
 
-use crate::IkConfig;
 use crate::descent::Step;
 use crate::linearised::Linearised;
 use crate::normal::Normal;
-use crate::program::{Problem, QuadraticProgram};
+use crate::program::QuadraticProgram;
+use crate::{IkConfig, Problem};
 use nalgebra::DVector;
 
 /// Further away than this the linearised problem says so little about the true one that its exact

@@ -5,14 +5,14 @@ mod active_set;
 #[path = "support/problems.rs"]
 mod problems;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use problems::{near_singular, ur5};
 use seeone_core::random::generator;
 use seeone_plugin::{IkQuery, IkStatus, Kinematics};
-use seeone_qp_ik::{IkConfig, QpIk, QuadraticProgram};
+use seeone_qp_ik::{IkConfig, Problem, QpIk, QuadraticProgram};
 
 #[test]
-fn near_singularities_every_step_is_right_to_a_ten_thousandth_of_a_radian() {
+fn near_singularities_every_step_is_the_exact_one() {
     let robot = ur5();
     let mut rng = generator(1, "near-singular");
     let mut program = QuadraticProgram::new(6, 12);
@@ -25,7 +25,7 @@ fn near_singularities_every_step_is_right_to_a_ten_thousandth_of_a_radian() {
         worst = worst.max((&x - &exact).amax());
         let free = problem.hessian.clone().cholesky().expect("damped").solve(problem.pull);
         limited += usize::from((free - exact).amax() > 1e-6);
-        assert!(worst <= 1e-4, "case {case}: {worst}");
+        assert!(worst <= 1e-9, "case {case}: {worst}");
     }
     assert!(limited > 1000, "limits were in the way of {limited} steps only");
 }
@@ -45,7 +45,7 @@ fn no_answer_depends_on_the_questions_before_it() {
 }
 
 #[test]
-fn a_program_allocates_nothing_but_the_solvers_own_clock() {
+fn a_program_allocates_nothing() {
     let robot = ur5();
     let mut rng = generator(3, "near-singular");
     let problems: Vec<_> = (0..50).map(|_| near_singular(&robot, &mut rng)).collect();
@@ -57,8 +57,7 @@ fn a_program_allocates_nothing_but_the_solvers_own_clock() {
             assert!(program.solve(&owned.problem(), &mut x));
         }
     });
-    // clarabel empties its table of timers at the start of every solve and fills it anew.
-    assert!(counted.count_total <= 50 && counted.count_max <= 1, "{counted:?}");
+    assert_eq!(counted.count_total, 0, "{counted:?}");
 }
 
 #[test]
@@ -75,4 +74,30 @@ fn a_descent_allocates_nothing_but_its_answer() {
         solver.solve(&robot, &query).expect("an answer");
     });
     assert_eq!(counted.count_total, 1, "{counted:?}");
+}
+
+#[test]
+fn a_program_in_which_nothing_pulls_or_nothing_may_move_has_its_answer() {
+    let robot = ur5();
+    let owned = near_singular(&robot, &mut generator(4, "near-singular"));
+    let (zero, away) = (DVector::zeros(6), DVector::repeat(6, 0.01));
+    let mut program = QuadraticProgram::new(6, 12);
+    let mut x = DVector::repeat(6, 1.0);
+    assert!(program.solve(&Problem { pull: &zero, ..owned.problem() }, &mut x));
+    assert!(x.amax() < 1e-12, "{x}");
+    let still = Problem { lower: &zero, upper: &zero, ..owned.problem() };
+    assert!(program.solve(&still, &mut x) && x == zero, "{x}");
+    // Every joint has to go somewhere though nothing pulls.
+    let far = DVector::repeat(6, 0.02);
+    let (rows, bounds) = (DMatrix::zeros(12, 6), DVector::repeat(12, 1.0));
+    let hessian = DMatrix::identity(6, 6);
+    let forced = Problem {
+        hessian: &hessian,
+        pull: &zero,
+        lower: &away,
+        upper: &far,
+        rows: &rows,
+        bounds: &bounds,
+    };
+    assert!(program.solve(&forced, &mut x) && (&x - &away).amax() < 1e-12, "{x}");
 }

@@ -18,7 +18,7 @@ use seeone_plugin::{
 };
 use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage, is_name};
 use seeone_runtime::plugins::configuration;
-use seeone_runtime::run::{Acted, Execution};
+use seeone_runtime::run::{Acted, Execution, Hull};
 use seeone_sim::cell::Cell;
 use seeone_sim::expert::VisorGrasp;
 use std::collections::BTreeMap;
@@ -77,8 +77,14 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
     let key_poses: Vec<KeyPose> = lesson.stages.iter().map(key_pose).collect();
     let start = arm.state()?.joints;
     let obstacles = scene.obstacles();
-    let task =
-        MotionTask { start: &start, holding: false, key_poses: &key_poses, obstacles: &obstacles };
+    let carried = Hull::of(&observation.cloud).in_the_hand(&key_poses);
+    let task = MotionTask {
+        start: &start,
+        holding: false,
+        carried: &carried,
+        key_poses: &key_poses,
+        obstacles: &obstacles,
+    };
     let program: Program = match motion.plan(&robot, kinematics.as_ref(), &task)? {
         MotionOutcome::Planned { program, .. } => program,
         MotionOutcome::Infeasible { stage, reason } => {
@@ -95,6 +101,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         kinematics: kinematics.as_ref(),
         model: &robot,
         obstacles: &obstacles,
+        carried: &carried,
         key_poses: &key_poses,
         program: &program,
         acted: &mut acted,

@@ -39,7 +39,8 @@ pub enum Method {
     /// names, distance, wanted distance), reason or none.
     Solve = 9,
     /// Motion, lent kinematics: the robot or none (the one of the setup), start joints,
-    /// whether holding, key poses, obstacles `->` 1, program, cost; or 0, stage, reason.
+    /// whether holding, points of what is carried, key poses, obstacles `->` 1, program, cost; or
+    /// 0, stage, reason.
     Plan = 10,
     /// Robot: nothing `->` joints, opening.
     State = 11,

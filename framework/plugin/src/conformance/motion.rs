@@ -71,7 +71,7 @@ fn plan(
     key_poses: &[KeyPose],
     start: &[f64],
 ) -> Result<MotionOutcome, PluginError> {
-    let task = MotionTask { start, holding: false, key_poses, obstacles: &[MAT] };
+    let task = MotionTask { start, holding: false, carried: &[], key_poses, obstacles: &[MAT] };
     plugin.plan(robot, &Descent::default(), &task)
 }
 

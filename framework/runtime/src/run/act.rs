@@ -54,7 +54,7 @@ pub(super) fn act(
         let mut acted = before.map(|mut acted| std::mem::take(&mut *acted)).unwrap_or_default();
         acted.tries += 1;
         let last_try = acted.tries >= assignment.tries;
-        let Planned { key_poses, program, .. } = planned;
+        let Planned { key_poses, carried, program, .. } = planned;
         let obstacles = &assignment.scene.obstacles();
         let (ended, _) = bench.timed(Step::Act, |plugins, tell| {
             let execution = Execution {
@@ -64,6 +64,7 @@ pub(super) fn act(
                 kinematics: plugins.kinematics.as_ref(),
                 model: &assignment.robot,
                 obstacles,
+                carried,
                 key_poses,
                 program,
                 acted: &mut acted,

@@ -8,6 +8,7 @@
 use super::act::{Acted, Snapshot};
 use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
+use nalgebra::Point3;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
@@ -43,6 +44,8 @@ pub struct Execution<'a> {
     pub model: &'a RobotModel,
     /// What it must not touch.
     pub obstacles: &'a [Obstacle],
+    /// Points of what it takes, in the closed hand's tool frame, metres.
+    pub carried: &'a [Point3<f64>],
     /// The key poses, at least one, and ...
     pub key_poses: &'a [KeyPose],
     /// ... the program through them.
@@ -149,14 +152,14 @@ impl Execution<'_> {
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
         let key = ahead.first().ok_or("the program has a stage without a key pose")?.clone();
         let short_m = difference(&here, &key.pose).0;
-        let (start, obstacles) = (&state.joints, self.obstacles);
+        let (start, carried, obstacles) = (&state.joints, self.carried, self.obstacles);
         let mut refused = String::new();
         for share in RETREAT_SHARES {
             let retreat_m = key.retreat_m * share;
             let (approach_m, until_contact_n) = (0.0, None);
             ahead[0] =
                 KeyPose { pose: here, approach_m, until_contact_n, retreat_m, ..key.clone() };
-            let task = MotionTask { start, holding, key_poses: &ahead, obstacles };
+            let task = MotionTask { start, holding, carried, key_poses: &ahead, obstacles };
             let outcome = self.motion.plan(self.model, self.kinematics, &task);
             match outcome.map_err(|e| e.to_string())? {
                 MotionOutcome::Planned { program, .. } => {

@@ -2,6 +2,8 @@
 
 use super::assignment::Assignment;
 use super::bench::Bench;
+use super::hull::Hull;
+use super::observe::Seen;
 use super::schedule::leave;
 use super::step::{Failed, Step};
 use super::transfer::{Grasp, Transferred};
@@ -9,6 +11,7 @@ use crate::files::RelativeTo;
 use crate::plugins::Plugins;
 use crate::transfer::{Turn, carried, relation, turns};
 use bevy_ecs::prelude::*;
+use nalgebra::Point3;
 use seeone_core::Pose;
 use seeone_plugin::{KeyPose, MotionOutcome, MotionTask, Program};
 
@@ -27,6 +30,9 @@ pub struct Planned {
     pub turn: Turn,
     /// The key poses.
     pub key_poses: Vec<KeyPose>,
+    /// The outermost points of what was seen of the object, where they will be in the closed
+    /// hand's tool frame once it is taken.
+    pub carried: Vec<Point3<f64>>,
     /// The program through them.
     pub program: Program,
     /// Its cost, for comparison alone.
@@ -36,10 +42,12 @@ pub struct Planned {
 pub(super) fn plan(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Transferred), Without<Failed>>,
+    runs: Query<(Entity, &Assignment, &Seen, &Transferred), Without<Failed>>,
 ) {
-    for (run, assignment, transferred) in &runs {
-        let planned = bench.step(Step::Plan, |plugins| planned(plugins, assignment, transferred));
+    for (run, assignment, seen, transferred) in &runs {
+        let hull = Hull::of(&seen.0.cloud);
+        let planned =
+            bench.step(Step::Plan, |plugins| planned(plugins, assignment, transferred, &hull));
         leave(&mut commands, run, planned);
     }
 }
@@ -49,10 +57,11 @@ fn planned(
     plugins: &mut Plugins,
     assignment: &Assignment,
     transferred: &Transferred,
+    hull: &Hull,
 ) -> Result<Planned, String> {
     let mut refused = String::new();
     for share in RETREAT_SHARES {
-        match with_retreats(plugins, assignment, transferred, share)? {
+        match with_retreats(plugins, assignment, transferred, hull, share)? {
             Ok(planned) => return Ok(planned),
             // What stands in the way of the whole retreats says most.
             Err(reason) if refused.is_empty() => refused = reason,
@@ -69,6 +78,7 @@ fn with_retreats(
     plugins: &mut Plugins,
     assignment: &Assignment,
     transferred: &Transferred,
+    hull: &Hull,
     share: f64,
 ) -> Result<Result<Planned, String>, String> {
     let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
@@ -85,9 +95,11 @@ fn with_retreats(
             }
             let mut key_poses = key_poses(assignment, transferred, grasp, turn);
             key_poses.iter_mut().for_each(|key| key.retreat_m *= share);
+            let carried = hull.in_the_hand(&key_poses);
             let task = MotionTask {
                 start: &start,
                 holding: false,
+                carried: &carried,
                 key_poses: &key_poses,
                 obstacles: &obstacles,
             };
@@ -98,8 +110,8 @@ fn with_retreats(
             match outcome {
                 MotionOutcome::Planned { program, cost } => {
                     if best.as_ref().is_none_or(|best| cost < best.cost) {
-                        best =
-                            Some(Planned { grasp: index, turn: *turn, key_poses, program, cost });
+                        let (grasp, turn) = (index, *turn);
+                        best = Some(Planned { grasp, turn, key_poses, carried, program, cost });
                     }
                 }
                 MotionOutcome::Infeasible { stage, reason } => {

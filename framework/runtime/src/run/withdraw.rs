@@ -61,6 +61,7 @@ fn withdrawn(plugins: &mut Plugins, assignment: &Assignment) -> Result<Acted, St
         let task = MotionTask {
             start: &start,
             holding: true,
+            carried: &[],
             key_poses: &key_poses,
             obstacles: &obstacles,
         };

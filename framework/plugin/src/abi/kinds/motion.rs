@@ -6,6 +6,7 @@ use crate::abi::cells::{Put, Reader, Take, fields, malformed, message};
 use crate::abi::methods::Method;
 use crate::motion::{Obstacle, PURPOSES};
 use crate::{KeyPose, Kinematics, Motion, MotionOutcome, MotionTask, PluginError, Program, Step};
+use nalgebra::Point3;
 use seeone_core::robot::{RobotModel, Shape, Solid};
 use std::sync::Arc;
 
@@ -14,11 +15,12 @@ struct Task {
     robot: Option<RobotModel>,
     start: Vec<f64>,
     holding: bool,
+    carried: Vec<Point3<f64>>,
     key_poses: Vec<KeyPose>,
     obstacles: Vec<Obstacle>,
 }
 
-fields!(Task { robot, start, holding, key_poses, obstacles });
+fields!(Task { robot, start, holding, carried, key_poses, obstacles });
 fields!(KeyPose {
     stage,
     pose,
@@ -156,9 +158,9 @@ impl<C: Callee> Motion for Remote<C> {
         kinematics: &dyn Kinematics,
         task: &MotionTask,
     ) -> Result<MotionOutcome, PluginError> {
-        let MotionTask { start, holding, key_poses, obstacles } = *task;
+        let MotionTask { start, holding, carried, key_poses, obstacles } = *task;
         let sent = self.unknown(robot);
-        let request = message(&[&sent, &start, &holding, &key_poses, &obstacles]);
+        let request = message(&[&sent, &start, &holding, &carried, &key_poses, &obstacles]);
         let lent = KinematicsCallee { kinematics, robot: self.shared(robot) };
         let sound = |outcome: &MotionOutcome| outcome.check(robot);
         self.ask(Method::Plan, &request, &[&lent], sound)
@@ -191,10 +193,17 @@ pub(in crate::abi) fn served(
     lent: &[Foreign],
 ) -> Result<Vec<u64>, PluginError> {
     let Method::Plan = method else { return Err(not_answered(method)) };
-    let Task { robot: sent, start, holding, key_poses, obstacles } = Reader::whole(request)?;
+    let Task { robot: sent, start, holding, carried, key_poses, obstacles } =
+        Reader::whole(request)?;
     let [kinematics] = lent else { return Err(missing()) };
     let robot = robot(sent, known)?;
     let kinematics = Remote::new(*kinematics, Some(Arc::clone(&robot)));
-    let task = MotionTask { start: &start, holding, key_poses: &key_poses, obstacles: &obstacles };
+    let task = MotionTask {
+        start: &start,
+        holding,
+        carried: &carried,
+        key_poses: &key_poses,
+        obstacles: &obstacles,
+    };
     Ok(message(&[&plugin.plan(&robot, &kinematics, &task)?]))
 }
