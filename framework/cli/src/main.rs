@@ -8,6 +8,7 @@ mod faults;
 mod files;
 mod fits;
 mod follow;
+mod interrupt;
 mod judge;
 mod kept;
 mod motion_table;
@@ -42,7 +43,12 @@ enum Ending {
     Success,
     /// An honest "no": the attempt failed, or a check found faults.
     Failure,
+    /// Ctrl-C ended it in good order: the robot stands, and what was recorded is whole.
+    Interrupted,
 }
+
+/// The exit status of what Ctrl-C ended, by the shells' custom.
+const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
     threads::keep_candle_to_one();
@@ -57,6 +63,7 @@ fn main() -> ExitCode {
     match dispatch(&cli.verb) {
         Ok(Ending::Success) => ExitCode::SUCCESS,
         Ok(Ending::Failure) => ExitCode::from(1),
+        Ok(Ending::Interrupted) => ExitCode::from(INTERRUPTED),
         Err(error) => report(&error),
     }
 }

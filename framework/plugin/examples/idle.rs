@@ -34,4 +34,8 @@ impl Robot for Idle {
     fn execute(&mut self, _: &Action, _: &mut Watch) -> Result<Felt, PluginError> {
         Ok(Felt { opening_m: 0.0, holding: false, contact: false })
     }
+
+    fn stop(&mut self) -> Result<(), PluginError> {
+        Ok(())
+    }
 }

@@ -73,4 +73,8 @@ impl Robot for Misbehaving {
         let opening_m = if *self == Self::NaN { f64::NAN } else { 0.03 };
         Ok(Felt { opening_m, holding: false, contact: false })
     }
+
+    fn stop(&mut self) -> Result<(), PluginError> {
+        self.misbehave()
+    }
 }

@@ -15,4 +15,7 @@ pub enum PluginError {
     /// A fault inside the plugin, a caught panic among them.
     #[error("internal fault: {0}")]
     Internal(String),
+    /// The caller asked for an end before the work was done, and there was one.
+    #[error("interrupted")]
+    Cancelled,
 }

@@ -90,8 +90,8 @@ impl Felt {
     }
 }
 
-/// Sees the robot on its way.
-pub type Watch<'a> = dyn FnMut(&RobotSample) + Send + 'a;
+/// Sees the robot on its way, and may end it: by an error, after which the robot has to stop.
+pub type Watch<'a> = dyn FnMut(&RobotSample) -> Result<(), PluginError> + Send + 'a;
 
 /// A robot arm with a gripper.
 pub trait Robot: Send {
@@ -102,10 +102,19 @@ pub trait Robot: Send {
     fn state(&mut self) -> Result<RobotState, PluginError>;
 
     /// Carries out one action, to its end or to the contact it waits for, and says what was
-    /// felt; `watch` sees the robot about thirty times a second on the way.
+    /// felt; `watch` sees the robot about thirty times a second on the way. An error of `watch`
+    /// ends the action there and then, with that error and the robot at a stop.
     ///
     /// # Errors
     /// When the first sample is not where the robot is, a sample breaks a limit, a number
     /// is not finite, or the robot stopped on the way.
     fn execute(&mut self, action: &Action, watch: &mut Watch) -> Result<Felt, PluginError>;
+
+    /// Stands still: whatever is under way ends, the arm holds the position that it is in, and
+    /// the hand keeps what it holds. The host asks for it when a run has failed or was
+    /// interrupted; a robot that stands stays as it is.
+    ///
+    /// # Errors
+    /// When the robot does not answer, and may be moving.
+    fn stop(&mut self) -> Result<(), PluginError>;
 }

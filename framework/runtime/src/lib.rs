@@ -12,7 +12,7 @@
 //! let plugins = Plugins::build(&registry, &methods, &cell, Some(judge))?;
 //! let mut assignment = Assignment::new(skill, scene, robot, methods)?;
 //! assignment.seed = seed;                                                          // object, recording, ...
-//! let finished = run(assignment, plugins, Hooks { clock, progress });
+//! let finished = run(assignment, plugins, Hooks { clock, progress, cancel });
 //! println!("{}", serde_json::to_string(&finished.outcome)?);
 //! ```
 //! The runtime names no plugin and reads no clock: both are handed in.

@@ -146,7 +146,7 @@ impl SimulatedArm {
             let slipped = !now.pads_feel_load;
             let contact = contact_n.is_some_and(|force_n| change > force_n || slipped);
             if frame % FRAMES_PER_SAMPLE == 0 || frame == frames || contact {
-                watch(&self.sample()?);
+                watch(&self.sample()?)?;
             }
             if contact {
                 return Ok(true);
@@ -170,7 +170,7 @@ impl SimulatedArm {
             self.world.advance(&pose)?;
             let moving = self.world.state()?.fingers_move;
             if frame % FRAMES_PER_SAMPLE == 0 {
-                watch(&self.sample()?);
+                watch(&self.sample()?)?;
             }
             if !moving {
                 break;
@@ -204,5 +204,10 @@ impl Robot for SimulatedArm {
         };
         let now = self.world.state()?;
         Ok(Felt { opening_m: now.opening_m, holding: now.pads_feel_load, contact })
+    }
+
+    /// The simulated arm moves in `execute` alone, and holds its position by itself.
+    fn stop(&mut self) -> Result<(), PluginError> {
+        self.world.state().map(drop)
     }
 }

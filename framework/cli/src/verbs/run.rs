@@ -5,7 +5,7 @@ use crate::outputs::{make_folder, write_file};
 use crate::picture::RunPicture;
 use crate::verbs::task;
 use crate::workcell::{Attempt, Workcell};
-use crate::{Ending, console, motion_table, objects};
+use crate::{Ending, console, interrupt, motion_table, objects};
 use anyhow::Result;
 use seeone_runtime::files::{Family, family_of};
 use seeone_runtime::run::{Finished, Hooks, Outcome, Planned, StageEvent};
@@ -20,7 +20,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
     if family_of(&args.cell.skill).is_ok_and(|family| family == Family::Task) {
         return task::run(args);
     }
-    let clock = Instant::now();
+    let (clock, cancel) = (Instant::now(), interrupt::on_ctrl_c()?);
     let workcell = Workcell::open(&args.cell)?;
     let object = match &args.object {
         Some(name) => objects::resolve(name)?,
@@ -48,8 +48,11 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
         dry_run: args.dry_run,
         recording: Some(args.out.join(format!("{stem}.mcap"))),
     };
-    let hooks =
-        Hooks { clock: Box::new(move || clock.elapsed().as_secs_f64()), progress: Box::new(told) };
+    let hooks = Hooks {
+        clock: Box::new(move || clock.elapsed().as_secs_f64()),
+        progress: Box::new(told),
+        cancel: cancel.clone(),
+    };
     let picture = RunPicture::before(&workcell, &cell)?;
     let finished = workcell.attempt(&cell, &object, attempt, hooks)?;
     let path = args.out.join(format!("{stem}.png"));
@@ -64,7 +67,10 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
     if args.json {
         console::answer(&serde_json::to_string_pretty(&finished.outcome)?)?;
     }
-    Ok(ending(&finished.outcome, args.dry_run))
+    Ok(match cancel.is_ordered() {
+        true => Ending::Interrupted,
+        false => ending(&finished.outcome, args.dry_run),
+    })
 }
 
 /// A dry run succeeds when a plan was found.

@@ -3,7 +3,7 @@
 use crate::args::RunArgs;
 use crate::outputs::make_folder;
 use crate::site::{Site, TaskCell};
-use crate::{Ending, console, objects};
+use crate::{Ending, console, interrupt, objects};
 use anyhow::Result;
 use seeone_runtime::files::SkillUse;
 use seeone_runtime::task::{State, StepOutcome, TaskEvent, TaskHooks, TaskOutcome, run_task};
@@ -31,7 +31,7 @@ struct Report<'a> {
 /// # Errors
 /// When something given is wrong, or a file cannot be written.
 pub fn run(args: &RunArgs) -> Result<Ending> {
-    let clock = Instant::now();
+    let (clock, cancel) = (Instant::now(), interrupt::on_ctrl_c()?);
     let site = Rc::new(Site::open(&args.cell)?);
     let object = match &args.object {
         Some(name) => objects::resolve(name)?,
@@ -53,6 +53,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
     let hooks = TaskHooks {
         clock: Box::new(move || clock.elapsed().as_secs_f64()),
         progress: Box::new(told),
+        cancel: cancel.clone(),
     };
     let outcome = run_task(task, &mut prepare, plugins, Box::new(cell), hooks)?;
     console::tell("");
@@ -62,7 +63,7 @@ pub fn run(args: &RunArgs) -> Result<Ending> {
         let report = Report { outcome: &outcome, robot, scene: &site.scene.name, seed };
         console::answer(&serde_json::to_string_pretty(&report)?)?;
     }
-    Ok(ending(&outcome, args.dry_run))
+    Ok(if cancel.is_ordered() { Ending::Interrupted } else { ending(&outcome, args.dry_run) })
 }
 
 /// A dry run succeeds when every step was planned.

@@ -18,7 +18,7 @@ use seeone_plugin::{
 };
 use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage, is_name};
 use seeone_runtime::plugins::configuration;
-use seeone_runtime::run::{Acted, Execution, Hull};
+use seeone_runtime::run::{Acted, Cancel, Execution, Hull};
 use seeone_sim::cell::Cell;
 use seeone_sim::expert::VisorGrasp;
 use std::collections::BTreeMap;
@@ -107,6 +107,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         acted: &mut acted,
         tell: &mut |_| (),
         last_try: true,
+        cancel: &Cancel::default(),
     };
     if let Err(failed) = execution.run() {
         console::tell(&format!("the expert failed at {}: {}", failed.stage, failed.reason));

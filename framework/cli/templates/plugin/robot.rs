@@ -61,8 +61,7 @@ impl MyPlugin {
         self.world.advance(&self.model.tool_pose(&self.joints))?;
         let now = self.world.state()?;
         let state = RobotState { joints: self.joints.clone(), opening_m: now.opening_m };
-        watch(&RobotSample { time_s: now.time_s, state });
-        Ok(())
+        watch(&RobotSample { time_s: now.time_s, state })
     }
 
     /// Follows a trajectory; says whether contact ended it.
@@ -139,6 +138,11 @@ impl Robot for MyPlugin {
         };
         let now = self.world.state()?;
         Ok(Felt { opening_m: now.opening_m, holding: now.pads_feel_load, contact })
+    }
+
+    /// The simulated arm moves in `execute` alone, and holds its position by itself.
+    fn stop(&mut self) -> Result<(), PluginError> {
+        self.world.state().map(drop)
     }
 }
 

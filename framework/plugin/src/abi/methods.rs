@@ -51,7 +51,8 @@ pub enum Method {
     /// A clearance that is lent: joints, distance `->` list of proximities: margin, normal
     /// (point), two carriers or none each (link, point).
     Proximities = 14,
-    /// A watcher that is lent: seconds, joints, opening `->` nothing.
+    /// A watcher that is lent: seconds, joints, opening `->` nothing. Any code but `OK` asks the
+    /// robot to stop and to end the action with that code.
     Watch = 15,
     /// The world: nothing `->` seconds, seconds a frame, opening, whether the fingers move,
     /// whether the pads feel a load, the load (point).
@@ -66,11 +67,13 @@ pub enum Method {
     OpenFingers = 20,
     /// The world: nothing `->` list of meshes: points, list of triangles (three numbers each).
     Surfaces = 21,
+    /// Robot: nothing `->` nothing. It stands still where it is.
+    Stop = 22,
 }
 
 impl Method {
     /// Every method, in order.
-    pub const ALL: [Method; 21] = [
+    pub const ALL: [Method; 22] = [
         Method::Observe,
         Method::Perceive,
         Method::Encode,
@@ -92,6 +95,7 @@ impl Method {
         Method::CloseFingers,
         Method::OpenFingers,
         Method::Surfaces,
+        Method::Stop,
     ];
 
     /// The method of a number.
@@ -123,6 +127,7 @@ impl Method {
             Method::CloseFingers => "close fingers",
             Method::OpenFingers => "open fingers",
             Method::Surfaces => "surfaces",
+            Method::Stop => "stop",
         }
     }
 }
@@ -137,6 +142,6 @@ mod tests {
             assert_eq!(method as u64, i as u64 + 1);
             assert_eq!(Method::of(i as u64 + 1), Some(method));
         }
-        assert_eq!((Method::of(0), Method::of(22)), (None, None));
+        assert_eq!((Method::of(0), Method::of(23)), (None, None));
     }
 }

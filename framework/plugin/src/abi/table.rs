@@ -11,8 +11,9 @@ pub const MAGIC: u64 = 0x0000_454E_4F45_4553;
 /// Must be equal on both sides: layouts, messages or meanings changed.
 pub const ABI_MAJOR: u32 = 3;
 
-/// May differ: functions were appended to the end of a table, whose `size` tells.
-pub const ABI_MINOR: u32 = 0;
+/// May differ: functions were appended to the end of a table, whose `size` tells, or methods and
+/// codes to those that there were. 1: `stop`, and a watcher that asks for an end.
+pub const ABI_MINOR: u32 = 1;
 
 /// The one symbol that a library exports, of type [`Entry`].
 pub const ENTRY: &[u8] = b"seeone_plugin";
@@ -70,6 +71,8 @@ impl Status {
     pub const RESOURCE: Self = Self(3);
     /// A fault inside the plugin, a caught panic among them.
     pub const INTERNAL: Self = Self(4);
+    /// The caller asked for an end before the work was done, and there was one.
+    pub const CANCELLED: Self = Self(5);
 
     /// The code and the text of an error.
     pub fn of(error: PluginError) -> (Self, String) {
@@ -78,6 +81,7 @@ impl Status {
             PluginError::Input(text) => (Self::INPUT, text),
             PluginError::Resource(text) => (Self::RESOURCE, text),
             PluginError::Internal(text) => (Self::INTERNAL, text),
+            PluginError::Cancelled => (Self::CANCELLED, error.to_string()),
         }
     }
 
@@ -96,6 +100,7 @@ impl Status {
             Self::CONFIGURATION => Err(PluginError::Configuration(text)),
             Self::INPUT => Err(PluginError::Input(text)),
             Self::RESOURCE => Err(PluginError::Resource(text)),
+            Self::CANCELLED => Err(PluginError::Cancelled),
             _ => Err(PluginError::Internal(text)),
         }
     }

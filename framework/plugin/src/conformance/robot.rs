@@ -25,7 +25,38 @@ pub fn robot(
     let again = carries_out(model, second.as_mut())?;
     let rule = "the same actions give the same samples";
     hold(rule, done == again, || "two executions differ".into())?;
-    refuses_what_is_wrong(model, answered("a robot can be built", build())?.as_mut())
+    let rule = "a robot can be built";
+    refuses_what_is_wrong(model, answered(rule, build())?.as_mut())?;
+    stops(model, answered(rule, build())?.as_mut())
+}
+
+/// Ends when the watcher asks for it, stands when it is told to, and goes on from there.
+fn stops(model: &RobotModel, robot: &mut dyn Robot) -> Result<(), Violation> {
+    let rule = "the state is the robot's";
+    let start = answered(rule, robot.state())?.joints;
+    let there = moving(&start, -0.1, 200);
+    let mut seen = 0;
+    let told = robot.execute(&Action::Move(there.clone()), &mut |_| {
+        seen += 1;
+        if seen < 10 { Ok(()) } else { Err(PluginError::Cancelled) }
+    });
+    let rule = "an action ends when the watcher asks for it, with the watcher's error";
+    hold(rule, told == Err(PluginError::Cancelled), || format!("{told:?}"))?;
+    hold(rule, seen == 10, || format!("{seen} samples, the end asked for at the tenth"))?;
+    let rule = "a robot that was interrupted is on its way, and not at its end";
+    let interrupted = answered(rule, robot.state())?.joints;
+    let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let (gone, left) = (off(&interrupted, &start), off(&interrupted, &there.positions[199]));
+    hold(rule, gone < 0.05 && left > 0.05, || format!("{gone:.3} rad gone, {left:.3} left"))?;
+
+    let rule = "a robot that is stopped holds its position";
+    answered(rule, robot.stop())?;
+    let stopped = answered(rule, robot.state())?.joints;
+    hold(rule, stopped == interrupted, || format!("from {interrupted:?} to {stopped:?}"))?;
+    let rule = "a robot that was stopped goes on from there";
+    let told = robot.execute(&Action::Move(moving(&stopped, 0.05, 100)), &mut |_| Ok(()));
+    sound(rule, answered(rule, told)?.check())?;
+    sound(rule, answered(rule, robot.state())?.check(Some(model.joints().len())))
 }
 
 /// A slow move from `from` by `turn` radians of every joint, in `samples` samples.
@@ -58,7 +89,10 @@ fn carries_out(
         Action::Grip(GripperCommand::Open { opening_m: 0.02 }),
     ] {
         let rule = "what can be done is done";
-        let told = robot.execute(&action, &mut |sample| seen.push(sample.clone()));
+        let told = robot.execute(&action, &mut |sample| {
+            seen.push(sample.clone());
+            Ok(())
+        });
         let told = answered(rule, told)?;
         sound("what is felt is finite", told.check())?;
         felt.push(told);
@@ -79,7 +113,7 @@ fn carries_out(
 
 fn refuses_what_is_wrong(model: &RobotModel, robot: &mut dyn Robot) -> Result<(), Violation> {
     let start = answered("the state is the robot's", robot.state())?.joints;
-    let mut hears = |rule, action: Action| refused(rule, robot.execute(&action, &mut |_| {}));
+    let mut hears = |rule, action: Action| refused(rule, robot.execute(&action, &mut |_| Ok(())));
     let mut follows = |rule, spoil: &dyn Fn(&mut JointTrajectory)| {
         let mut trajectory = moving(&start, 0.0, 20);
         spoil(&mut trajectory);

@@ -107,11 +107,15 @@ impl Robot for FakeRobot {
         let state = self.state()?;
         for _ in 0..30 {
             self.time_s += 1.0 / 30.0;
-            watch(&RobotSample { time_s: self.time_s, state: state.clone() });
+            watch(&RobotSample { time_s: self.time_s, state: state.clone() })?;
         }
         let contact = matches!(action, Action::MoveUntilContact { .. }) && self.behaviour.touches;
         self.holding &= !(contact && self.behaviour.slips);
         Ok(Felt { opening_m: self.opening_m, holding: self.holding, contact })
+    }
+
+    fn stop(&mut self) -> Result<(), PluginError> {
+        broken(&self.behaviour, "stop")
     }
 }
 

@@ -56,6 +56,7 @@ pub(super) fn act(
         let last_try = acted.tries >= assignment.tries;
         let Planned { key_poses, carried, program, .. } = planned;
         let obstacles = &assignment.scene.obstacles();
+        let cancel = &bench.cancel().clone();
         let (ended, _) = bench.timed(Step::Act, |plugins, tell| {
             let execution = Execution {
                 robot: plugins.robot.as_mut(),
@@ -70,6 +71,7 @@ pub(super) fn act(
                 acted: &mut acted,
                 tell,
                 last_try,
+                cancel,
             };
             Ok(execution.run())
         });

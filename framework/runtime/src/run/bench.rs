@@ -1,5 +1,6 @@
 //! Where a run's plugins stand, and who is told of what they do.
 
+use super::cancel::Cancel;
 use super::step::{Failed, StageEvent, Step};
 use crate::plugins::Plugins;
 use std::any::Any;
@@ -11,12 +12,15 @@ pub struct Hooks {
     pub clock: Box<dyn FnMut() -> f64>,
     /// Told of every step and stage as it ends.
     pub progress: Box<dyn FnMut(&StageEvent)>,
+    /// Ends the run from outside.
+    pub cancel: Cancel,
 }
 
 impl Default for Hooks {
     /// A clock that stands still, and nobody told.
     fn default() -> Self {
-        Self { clock: Box::new(|| 0.0), progress: Box::new(|_| {}) }
+        let cancel = Cancel::default();
+        Self { clock: Box::new(|| 0.0), progress: Box::new(|_| {}), cancel }
     }
 }
 
@@ -45,6 +49,21 @@ impl Bench {
         self.timings_ms.clear();
     }
 
+    /// What ends the run from outside.
+    pub(crate) fn cancel(&self) -> &Cancel {
+        &self.hooks.cancel
+    }
+
+    /// Stops the robot after a run that failed. One that does not answer is told of.
+    pub(super) fn stop_robot(&mut self) {
+        let robot = &mut self.plugins.robot;
+        let stopped = guarded(|| robot.stop().map_err(|e| e.to_string()));
+        if let Err(reason) = stopped {
+            let reason = Some(format!("the robot may be moving: {reason}"));
+            self.tell(StageEvent { name: "stop".into(), ok: false, seconds: 0.0, reason });
+        }
+    }
+
     /// Does the work of a step, timed and told. A panic of a plugin is a failure of the
     /// step and not the end of the host.
     pub(super) fn step<T>(
@@ -63,20 +82,25 @@ impl Bench {
     }
 
     /// Does and times the work of a step that tells of its own stages by the second
-    /// argument of `work`; with the seconds it took.
+    /// argument of `work`; with the seconds it took. Once the run was interrupted nothing is done
+    /// any more but to record it.
     pub(super) fn timed<T>(
         &mut self,
         step: Step,
         work: impl FnOnce(&mut Plugins, &mut dyn FnMut(StageEvent)) -> Result<T, String>,
     ) -> (Result<T, String>, f64) {
+        if step != Step::Record
+            && let Err(interrupted) = self.hooks.cancel.check()
+        {
+            return (Err(interrupted.to_string()), 0.0);
+        }
         let start = (self.hooks.clock)();
         let Self { plugins, hooks, events, .. } = self;
         let mut tell = |event: StageEvent| {
             (hooks.progress)(&event);
             events.push(event);
         };
-        let done = catch_unwind(AssertUnwindSafe(|| work(plugins, &mut tell)))
-            .unwrap_or_else(|panic| Err(format!("a plugin panicked: {}", told(&*panic))));
+        let done = guarded(|| work(plugins, &mut tell));
         let seconds = (self.hooks.clock)() - start;
         // Of all tries together.
         match self.timings_ms.iter_mut().find(|(timed, _)| *timed == step) {
@@ -91,6 +115,12 @@ impl Bench {
         (self.hooks.progress)(&event);
         self.events.push(event);
     }
+}
+
+/// What comes of `work` of a plugin, whose panic is a failure like any other.
+fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|panic| Err(format!("a plugin panicked: {}", told(&*panic))))
 }
 
 fn told(panic: &(dyn Any + Send)) -> &str {

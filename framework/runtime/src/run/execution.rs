@@ -6,6 +6,7 @@
 //! on nothing, after which the hand goes back the way it came, to look again.
 
 use super::act::{Acted, Snapshot};
+use super::cancel::Cancel;
 use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
 use nalgebra::Point3;
@@ -56,6 +57,8 @@ pub struct Execution<'a> {
     pub tell: &'a mut dyn FnMut(StageEvent),
     /// Whether closing on nothing is the end.
     pub last_try: bool,
+    /// Ends it from outside.
+    pub cancel: &'a Cancel,
 }
 
 /// What is known of the program's past.
@@ -192,7 +195,8 @@ impl Execution<'_> {
 
     /// One action, with what is seen on the way.
     fn execute(&mut self, action: &Action) -> Result<Felt, String> {
-        let Self { robot, judge, acted, .. } = self;
+        let Self { robot, judge, acted, cancel, .. } = self;
+        cancel.check().map_err(|e| e.to_string())?;
         let felt = robot.execute(action, &mut |sample| {
             acted.robot.push(sample.clone());
             let due = |last: &Snapshot| sample.time_s >= last.time_s + SNAPSHOT_PERIOD_S - 1e-9;
@@ -201,6 +205,7 @@ impl Execution<'_> {
             {
                 acted.object.push(Snapshot { time_s: sample.time_s, vertices: judge.object() });
             }
+            cancel.check()
         });
         felt.map_err(|e| e.to_string())
     }

@@ -1,5 +1,5 @@
 //! See how it ended. Every run is judged that was to move, however it failed: an object
-//! that was never taken is not grasped.
+//! that was never taken is not grasped. One that was interrupted is not judged.
 
 use super::act::{Acted, Snapshot};
 use super::assignment::Assignment;

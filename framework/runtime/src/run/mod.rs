@@ -23,6 +23,7 @@
 mod act;
 mod assignment;
 mod bench;
+mod cancel;
 mod encode;
 mod execution;
 mod hull;
@@ -41,6 +42,7 @@ mod withdraw;
 pub use act::{Acted, Snapshot};
 pub use assignment::Assignment;
 pub use bench::Hooks;
+pub use cancel::Cancel;
 pub use encode::Encoded;
 pub use execution::{Ended, Execution};
 pub use hull::Hull;

@@ -2,6 +2,7 @@
 
 use super::assignment::Assignment;
 use super::bench::Bench;
+use super::cancel::Cancel;
 use super::observe::NOTHING;
 use super::step::{Failed, Step};
 use crate::plugins::Plugins;
@@ -37,7 +38,7 @@ impl Precondition {
         Self::ALL.into_iter().find(|known| known.name() == name)
     }
 
-    fn ask(self, plugins: &mut Plugins) -> Result<(), String> {
+    fn ask(self, plugins: &mut Plugins, cancel: &Cancel) -> Result<(), String> {
         match self {
             Self::ObjectVisible => match in_sight(plugins)? {
                 true => Ok(()),
@@ -47,7 +48,7 @@ impl Precondition {
                 let here = plugins.robot.state().map_err(|e| e.to_string())?.joints;
                 // A gripper tells what it feels at the end of an action: of one that stays.
                 let stay = JointTrajectory { period_s: FEEL_S, positions: vec![here; 2] };
-                let felt = plugins.robot.execute(&Action::Move(stay), &mut |_| ());
+                let felt = plugins.robot.execute(&Action::Move(stay), &mut |_| cancel.check());
                 match felt.map_err(|e| e.to_string())?.holding {
                     true => Err("something is between the pads".into()),
                     false => Ok(()),
@@ -93,9 +94,10 @@ pub(super) fn require(
         if asked.is_empty() {
             continue;
         }
+        let cancel = bench.cancel().clone();
         let held = bench.step(Step::Require, |plugins| {
             let told = |asked: &Precondition| {
-                asked.ask(plugins).map_err(|why| format!("{}: {why}", asked.name()))
+                asked.ask(plugins, &cancel).map_err(|why| format!("{}: {why}", asked.name()))
             };
             asked.into_iter().try_for_each(told)
         });

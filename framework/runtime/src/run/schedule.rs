@@ -59,6 +59,11 @@ pub(crate) fn carry_out(world: &mut World, run: Entity) -> Outcome {
     while again(world, run) {
         attempt.run(world);
     }
+    if world.get::<Failed>(run).is_some()
+        && world.get::<Assignment>(run).is_some_and(|assignment| !assignment.dry_run)
+    {
+        world.non_send_mut::<Bench>().stop_robot();
+    }
     conclude().run(world);
     let assignment =
         world.entity_mut(run).take::<Assignment>().expect("no step takes the assignment away");

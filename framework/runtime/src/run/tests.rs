@@ -258,6 +258,7 @@ fn steps_are_told_as_they_end_and_timed_by_the_given_clock() {
             now
         }),
         progress: Box::new(move |event| telling.borrow_mut().push(event.clone())),
+        cancel: Cancel::default(),
     };
     let outcome = run(cell.assignment(), cell.plugins(Behaviour::default()), hooks).outcome;
     assert_eq!(*told.borrow(), outcome.stages);
@@ -267,6 +268,54 @@ fn steps_are_told_as_they_end_and_timed_by_the_given_clock() {
     assert_eq!(seconds("plan"), 0.5);
     // Approach, grip and lift take the fake robot a second each.
     assert!((seconds("pick") - 3.0).abs() < 0.05, "{}", seconds("pick"));
+}
+
+/// A run that is interrupted as soon as `step` is told.
+fn interrupted(cell: &FakeCell, behaviour: Behaviour, step: &'static str) -> Outcome {
+    let (cancel, mut assignment) = (Cancel::default(), cell.assignment());
+    assignment.recording = Some(cell.folder.path().join("a.mcap"));
+    let ordered = cancel.clone();
+    let progress = Box::new(move |event: &StageEvent| {
+        if event.name == step {
+            ordered.order();
+        }
+    });
+    let hooks = Hooks { progress, cancel, ..Hooks::default() };
+    run(assignment, cell.plugins(behaviour), hooks).outcome
+}
+
+#[test]
+fn a_run_that_is_interrupted_begins_nothing_more_and_is_recorded() {
+    let cell = FakeCell::new();
+    for (step, failed_at) in
+        [("observe", "perceive"), ("plan", "act"), ("pick", "release"), ("release", "judge")]
+    {
+        let outcome = interrupted(&cell, Behaviour::default(), step);
+        assert_eq!(outcome.reason, format!("{failed_at}: interrupted"));
+        assert_eq!(outcome.success, None, "nobody waits for a verdict");
+        let last = &outcome.stages[outcome.stages.len() - 1];
+        assert_eq!((last.name.as_str(), last.ok), ("record", true));
+        read(&outcome.recording.expect("a recording")).unwrap();
+    }
+}
+
+#[test]
+fn the_robot_is_stopped_when_a_run_fails_and_told_of_when_it_does_not_answer() {
+    let cell = FakeCell::new();
+    let deaf = Behaviour { fails: Some("stop"), ..Behaviour::default() };
+    let told = |outcome: &Outcome| {
+        let stop = outcome.stages.iter().find(|stage| stage.name == "stop");
+        stop.and_then(|stop| stop.reason.clone())
+    };
+    let expected = Some("the robot may be moving: internal fault: broken stop".to_owned());
+    let missed = finished(&cell, Behaviour { misses: 9, ..deaf }).outcome;
+    assert_eq!(missed.failed_at.as_deref(), Some("pick"));
+    assert_eq!(told(&missed), expected);
+    assert_eq!(told(&interrupted(&cell, deaf, "pick")), expected);
+    let panicking = finished(&cell, Behaviour { misses: 9, panics: true, ..deaf }).outcome;
+    let expected = "the robot may be moving: a plugin panicked: broken stop";
+    assert_eq!(told(&panicking).as_deref(), Some(expected));
+    assert_eq!(told(&finished(&cell, deaf).outcome), None, "nothing failed");
 }
 
 #[test]

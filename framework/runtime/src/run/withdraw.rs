@@ -4,6 +4,7 @@
 use super::act::Acted;
 use super::assignment::Assignment;
 use super::bench::Bench;
+use super::cancel::Cancel;
 use super::plan::RETREAT_SHARES;
 use super::schedule::leave;
 use super::step::{Failed, Step};
@@ -28,13 +29,19 @@ pub(super) fn withdraw(
         if assignment.dry_run {
             continue;
         }
-        let withdrawn = bench.step(Step::Withdraw, |plugins| withdrawn(plugins, assignment));
+        let cancel = bench.cancel().clone();
+        let withdrawn =
+            bench.step(Step::Withdraw, |plugins| withdrawn(plugins, assignment, &cancel));
         leave(&mut commands, run, withdrawn);
     }
 }
 
 /// What the robot did on its way back, in no try yet.
-fn withdrawn(plugins: &mut Plugins, assignment: &Assignment) -> Result<Acted, String> {
+fn withdrawn(
+    plugins: &mut Plugins,
+    assignment: &Assignment,
+    cancel: &Cancel,
+) -> Result<Acted, String> {
     let (model, mut acted) = (&assignment.robot, Acted::default());
     let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
     let opening_m = assignment.skill.stages[0].opening_m;
@@ -68,7 +75,10 @@ fn withdrawn(plugins: &mut Plugins, assignment: &Assignment) -> Result<Acted, St
         let outcome = plugins.motion.plan(model, plugins.kinematics.as_ref(), &task);
         match outcome.map_err(|e| e.to_string())? {
             MotionOutcome::Planned { program, .. } => {
-                let mut watch = |sample: &RobotSample| acted.robot.push(sample.clone());
+                let mut watch = |sample: &RobotSample| {
+                    acted.robot.push(sample.clone());
+                    cancel.check()
+                };
                 for step in &program.steps {
                     plugins.robot.execute(&step.action, &mut watch).map_err(|e| e.to_string())?;
                 }

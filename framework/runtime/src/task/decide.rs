@@ -173,6 +173,16 @@ fn end(world: &mut World, step: Entity, state: State, reason: Option<String>) {
     tell(world, step);
 }
 
+/// Ends every step that is under way in `step`, and passes over the others.
+pub(super) fn interrupt(world: &mut World, step: Entity, reason: &str) {
+    for child in children(world, step) {
+        interrupt(world, child, reason);
+    }
+    if state(world, step) == State::Underway {
+        end(world, step, State::Failed, Some(reason.to_owned()));
+    }
+}
+
 /// Passes over what has not begun.
 fn skip(world: &mut World, step: Entity) {
     if state(world, step) == State::Waiting {

@@ -2,13 +2,13 @@
 
 use super::State;
 use super::cell::Cell;
-use super::decide::{Around, Next, Root, decide};
+use super::decide::{Around, Next, Root, decide, interrupt};
 use super::node::{Composition, Ended, Node, Prepared, Told};
 use super::outcome::{TaskEvent, TaskOutcome};
 use super::spawn::{Prepare, spawn};
 use crate::files::Task;
 use crate::plugins::Plugins;
-use crate::run::{Bench, Hooks, StageEvent, Withdraw, carry_out};
+use crate::run::{Bench, Cancel, Hooks, StageEvent, Withdraw, carry_out};
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 use std::cell::{Cell as Shared, RefCell};
@@ -25,12 +25,15 @@ pub struct TaskHooks {
     pub clock: Box<dyn FnMut() -> f64>,
     /// Told of every step as it begins and ends, and of what its runs do.
     pub progress: Box<dyn FnMut(&TaskEvent)>,
+    /// Ends the task from outside.
+    pub cancel: Cancel,
 }
 
 impl Default for TaskHooks {
     /// A clock that stands still, and nobody told.
     fn default() -> Self {
-        Self { clock: Box::new(|| 0.0), progress: Box::new(|_| {}) }
+        let cancel = Cancel::default();
+        Self { clock: Box::new(|| 0.0), progress: Box::new(|_| {}), cancel }
     }
 }
 
@@ -68,10 +71,11 @@ pub fn run_task<E>(
     cell: Box<dyn Cell>,
     hooks: TaskHooks,
 ) -> Result<TaskOutcome, E> {
-    let TaskHooks { clock, progress } = hooks;
+    let TaskHooks { clock, progress, cancel } = hooks;
     let teller = Teller { progress: Rc::new(RefCell::new(progress)), depth: Rc::default() };
     let stages = teller.clone();
-    let hooks = Hooks { clock, progress: Box::new(move |event| stages.stage(event)) };
+    let progress = Box::new(move |event: &StageEvent| stages.stage(event));
+    let hooks = Hooks { clock, progress, cancel: cancel.clone() };
     let mut world = World::new();
     let root = spawn(&mut world, task, prepare)?;
     world.insert_resource(Root(root));
@@ -88,6 +92,10 @@ pub fn run_task<E>(
         runs += 1;
         let ended = run_skill(&mut world, step, runs, failed);
         failed = !ended.done;
+        if cancel.is_ordered() {
+            interrupt(&mut world, root, &ended.reason);
+            break;
+        }
         world.entity_mut(step).insert(ended);
     }
     Ok(TaskOutcome::of(&world, root))

@@ -8,7 +8,7 @@ use crate::fakes::{Behaviour, FakeCell};
 use crate::files::{SkillUse, Task, TaskStep, Work};
 use crate::methods::Methods;
 use crate::plugins::Plugins;
-use crate::run::Precondition;
+use crate::run::{Cancel, Precondition};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
 use std::convert::Infallible;
@@ -113,6 +113,7 @@ fn carried(fake: FakeCell, steps: Vec<TaskStep>, behaviours: &[Behaviour]) -> Ca
             now
         }),
         progress: Box::new(move |event: &TaskEvent| telling.borrow_mut().push(event.clone())),
+        cancel: Cancel::default(),
     };
     let mut prepare = |_: &SkillUse| Ok::<_, Infallible>(fake.assignment());
     let outcome = run_task(&task, &mut prepare, fake.plugins(WELL), cell, hooks).unwrap();
@@ -323,6 +324,34 @@ fn steps_are_told_with_their_depth_as_they_begin_and_end() {
     assert_eq!((ended.name.as_str(), ended.depth, ended.state), ("task", 0, State::Done));
     assert!(ended.seconds > told[told.len() - 2].seconds);
     assert_eq!(told[told.len() - 2].name, "wear");
+}
+
+#[test]
+fn a_task_that_is_interrupted_ends_with_the_run_under_way() {
+    let fake = Rc::new(FakeCell::new());
+    let task = Task {
+        name: "task".into(),
+        summary: String::new(),
+        steps: vec![TaskStep { tries: 9, ..skill(&fake, "first") }, skill(&fake, "second")],
+    };
+    let behaviours = [WELL].into();
+    let cell = Box::new(Behaving { fake: Rc::clone(&fake), behaviours, asked: Rc::default() });
+    let cancel = Cancel::default();
+    let ordered = cancel.clone();
+    let progress = Box::new(move |event: &TaskEvent| {
+        if event.name == "pick" {
+            ordered.order();
+        }
+    });
+    let hooks = TaskHooks { progress, cancel, ..TaskHooks::default() };
+    let mut prepare = |_: &SkillUse| Ok::<_, Infallible>(fake.assignment());
+    let outcome = run_task(&task, &mut prepare, fake.plugins(WELL), cell, hooks).unwrap();
+    let (told, asked) = (Vec::new(), Vec::new());
+    let carried = Carried { outcome, asked, told };
+    assert_eq!(carried.tree(), "task:failed(first:failed second:skipped)");
+    assert_eq!(carried.outcome.success, Some(false));
+    assert_eq!(carried.outcome.reason, "release: interrupted");
+    assert_eq!(carried.outcome.tree.steps[0].runs.len(), 1, "no other try");
 }
 
 #[test]

@@ -80,6 +80,10 @@ impl<C: Callee> Robot for Remote<C> {
         let watcher = WatchCallee { watch: Mutex::new(watch), joints: self.joints() };
         self.ask(Method::Execute, &message(&[action]), &[&watcher], Felt::check)
     }
+
+    fn stop(&mut self) -> Result<(), PluginError> {
+        self.ask(Method::Stop, &[], &[], anything)
+    }
 }
 
 impl<C: Callee> Remote<C> {
@@ -105,7 +109,7 @@ impl Callee for WatchCallee<'_> {
         let Method::Watch = method else { return Err(not_answered(method)) };
         let sample: RobotSample = Reader::whole(request)?;
         sample.check(self.joints).map_err(malformed)?;
-        (self.watch.lock().unwrap_or_else(PoisonError::into_inner))(&sample);
+        (self.watch.lock().unwrap_or_else(PoisonError::into_inner))(&sample)?;
         Ok(Vec::new())
     }
 }
@@ -126,14 +130,15 @@ pub(in crate::abi) fn served(
             let action = Reader::whole(request)?;
             let [watcher] = lent else { return Err(missing()) };
             let watcher = Remote::new(*watcher, None);
-            let mut told = Ok(());
             let felt = plugin.execute(&action, &mut |sample| {
-                if told.is_ok() {
-                    told = watcher.ask(Method::Watch, &message(&[sample]), &[], anything);
-                }
+                watcher.ask(Method::Watch, &message(&[sample]), &[], anything)
             })?;
-            told?;
             Ok(message(&[&felt]))
+        }
+        Method::Stop => {
+            let () = Reader::whole(request)?;
+            plugin.stop()?;
+            Ok(Vec::new())
         }
         other => Err(not_answered(other)),
     }
