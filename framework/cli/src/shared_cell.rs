@@ -1,7 +1,7 @@
 //! The simulated cell as plugins are given it.
 
-use seeone_core::{Pose, TriangleMesh};
-use seeone_plugin::{PluginError, World, WorldState};
+use seeone_core::Pose;
+use seeone_plugin::{PluginError, Surface, World, WorldState};
 use seeone_sim::cell::{Cell, FRAME_S};
 use std::sync::{Arc, Mutex, MutexGuard};
 
@@ -50,7 +50,10 @@ impl World for SharedCell {
         Ok(())
     }
 
-    fn surfaces(&self) -> Result<Vec<TriangleMesh>, PluginError> {
-        Ok(self.lock()?.surfaces())
+    fn surfaces(&self) -> Result<Vec<Surface>, PluginError> {
+        let cell = self.lock()?;
+        let coloured = |is_object| move |mesh| Surface { mesh, is_object };
+        let objects = cell.object_meshes().into_iter().map(coloured(true));
+        Ok(objects.chain(cell.scenery_meshes().into_iter().map(coloured(false))).collect())
     }
 }

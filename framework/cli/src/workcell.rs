@@ -124,7 +124,8 @@ impl Workcell {
         hasher.update(format!("{parts:?} {} {:?}", self.tries, self.provenance).as_bytes());
         hasher.update(objects.as_bytes());
         let object_file = Some(Path::new(objects)).filter(|path| path.is_file());
-        let files = [Some(self.skill.demonstration.cloud.as_path()), object_file];
+        let result = self.skill.result.as_ref().map(|result| result.cloud.as_path());
+        let files = [Some(self.skill.demonstration.cloud.as_path()), result, object_file];
         for file in files.into_iter().chain(self.libraries.iter().map(|l| Some(l.as_path()))) {
             let Some(file) = file else { continue };
             let bytes = fs::read(file).map_err(|e| {

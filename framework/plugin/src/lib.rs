@@ -37,4 +37,4 @@ pub use perception::{CanonicalCloud, Perception};
 pub use robot::{Felt, GripperCommand, Robot, RobotSample, RobotState, Watch};
 pub use setup::Setup;
 pub use transfer::{Candidate, Transfer, TransferTask};
-pub use world::{World, WorldState};
+pub use world::{Surface, World, WorldState};

@@ -21,6 +21,16 @@ pub struct WorldState {
     pub load_n: Vector3<f64>,
 }
 
+/// A surface that a camera may see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// In `world`, metres.
+    pub mesh: TriangleMesh,
+    /// Whether it has the colour by which the objects to be taken are told from all else: what a
+    /// camera with colours sees.
+    pub is_object: bool,
+}
+
 /// A simulated world with one hand in it, moved by a robot plugin and seen by a camera plugin.
 /// What a judge knows of it is no part of this.
 pub trait World: Send + Sync {
@@ -58,5 +68,5 @@ pub trait World: Send + Sync {
     ///
     /// # Errors
     /// As [`World::state`].
-    fn surfaces(&self) -> Result<Vec<TriangleMesh>, PluginError>;
+    fn surfaces(&self) -> Result<Vec<Surface>, PluginError>;
 }

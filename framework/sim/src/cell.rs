@@ -158,8 +158,19 @@ impl Cell {
     /// The surfaces, in `world`, of what stands in the cell: the table, the objects, the head,
     /// the hooks.
     pub fn surfaces(&self) -> Vec<TriangleMesh> {
+        let mut meshes = self.object_meshes();
+        meshes.extend(self.scenery_meshes());
+        meshes
+    }
+
+    /// The objects' surfaces in `world`.
+    pub fn object_meshes(&self) -> Vec<TriangleMesh> {
+        self.members.iter().map(|member| member.world.mesh()).collect()
+    }
+
+    /// The surfaces, in `world`, of all but the objects: the table, the head, the hooks.
+    pub fn scenery_meshes(&self) -> Vec<TriangleMesh> {
         let mut meshes = vec![scenery::table()];
-        meshes.extend(self.members.iter().map(|member| member.world.mesh()));
         meshes.extend(self.head_mesh());
         meshes.extend(self.hook_meshes());
         meshes

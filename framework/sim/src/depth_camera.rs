@@ -65,6 +65,14 @@ pub struct Capture {
     pub truth: Raster,
 }
 
+impl Capture {
+    /// Whether a pixel shows one of the meshes for which `is_coloured`: what a camera that sees
+    /// colours beside depths tells.
+    pub fn shows(&self, pixel: usize, is_coloured: impl Fn(usize) -> bool) -> bool {
+        self.truth.hits[pixel].is_some_and(|hit| is_coloured(hit.mesh as usize))
+    }
+}
+
 /// A depth image from the pose `camera` with the usual noise, without its ground truth.
 pub fn look(
     surfaces: &[TriangleMesh],

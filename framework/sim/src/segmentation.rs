@@ -49,7 +49,22 @@ impl DropZone {
     /// The mat's own noise stands out above the threshold here and there, in small islands;
     /// only connected patches of a fair size are kept.
     pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
-        segment(image, camera, 1, |p| self.holds(p))
+        segment(image, camera, 1, |_, p| self.holds(p))
+    }
+
+    /// The points of the object where it is told by its colour, wherever it is: what cannot be
+    /// the mat's, in patches that are large enough for an object. Depths at its outline that fly
+    /// between it and what is behind it belong to none.
+    pub fn coloured(
+        &self,
+        image: &DepthImage,
+        camera: &Pose,
+        is_coloured: impl Fn(usize) -> bool,
+    ) -> Cloud {
+        let above = |p: &Point3<f64>| p.z - self.floor_m >= MAT_M;
+        let holds = |pixel, p: &Point3<f64>| is_coloured(pixel) && above(p);
+        let patches = segment(image, camera, SMALLEST_PIXELS, holds);
+        Cloud::new(patches.into_iter().map(|(_, p)| p).collect()).unwrap_or_default()
     }
 
     /// The segmented points alone, of patches that are large enough for an object.
@@ -57,7 +72,7 @@ impl DropZone {
     /// With `apart_m` several objects may lie there, each farther from the others than so many
     /// metres: the points are then those of the one that shows most of itself.
     pub fn cloud(&self, image: &DepthImage, camera: &Pose, apart_m: Option<f64>) -> Cloud {
-        let patches = segment(image, camera, SMALLEST_PIXELS, |p| self.holds(p));
+        let patches = segment(image, camera, SMALLEST_PIXELS, |_, p| self.holds(p));
         let mut points: Vec<_> = patches.into_iter().map(|(_, p)| p).collect();
         if let Some(apart_m) = apart_m {
             // Of groups of one size the first, as the image is read.
@@ -96,7 +111,7 @@ impl HandZone {
     /// Pixels of `image` that show what the hand holds, each with its point in `world`, in
     /// patches of a fair size. `camera` is the camera's pose in `world`.
     pub fn segment(&self, image: &DepthImage, camera: &Pose) -> Vec<(usize, Point3<f64>)> {
-        segment(image, camera, 1, |p| self.holds(p))
+        segment(image, camera, 1, |_, p| self.holds(p))
     }
 }
 
@@ -106,7 +121,7 @@ fn segment(
     image: &DepthImage,
     camera: &Pose,
     smallest: usize,
-    holds: impl Fn(&Point3<f64>) -> bool,
+    holds: impl Fn(usize, &Point3<f64>) -> bool,
 ) -> Vec<(usize, Point3<f64>)> {
     let width = image.intrinsics.width;
     let mut inside: Vec<Option<Point3<f64>>> = image
@@ -118,7 +133,7 @@ fn segment(
             let usable = z.is_finite() && z > 0.0;
             let point =
                 usable.then(|| camera * image.intrinsics.deproject(i % width, i / width, z))?;
-            holds(&point).then_some(point)
+            holds(i, &point).then_some(point)
         })
         .collect();
     let patches = patches(&inside, image);

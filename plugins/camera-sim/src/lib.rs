@@ -22,6 +22,9 @@ struct Configuration {
     intrinsics: Intrinsics,
     /// Where the target is looked for.
     crop: Crop,
+    /// Whether the target is told by its colour instead, wherever it is in the picture.
+    #[serde(default)]
+    by_colour: bool,
     /// A recorded cloud, for `camera-file` alone.
     cloud: Option<String>,
 }

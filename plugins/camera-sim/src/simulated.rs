@@ -4,9 +4,9 @@ use crate::Configuration;
 use nalgebra::Point3;
 use rand::Rng;
 use seeone_core::random::{Generator, generator};
-use seeone_core::{Intrinsics, Pose};
+use seeone_core::{Intrinsics, Pose, TriangleMesh};
 use seeone_plugin::{Camera, Observation, PluginError, Setup, World};
-use seeone_sim::depth_camera::look;
+use seeone_sim::depth_camera::{Noise, capture};
 use seeone_sim::segmentation::DropZone;
 use std::sync::Arc;
 
@@ -17,6 +17,7 @@ pub struct SimulatedCamera {
     intrinsics: Intrinsics,
     zone: DropZone,
     apart_m: Option<f64>,
+    by_colour: bool,
     noise: Generator,
 }
 
@@ -48,16 +49,23 @@ impl SimulatedCamera {
             intrinsics: configuration.intrinsics,
             zone,
             apart_m: crop.apart_m,
+            by_colour: configuration.by_colour,
             noise: generator(setup.seed, "camera"),
         })
     }
 
     fn look(&mut self, noise: &mut impl Rng) -> Result<Observation, PluginError> {
         let surfaces = self.world.surfaces()?;
-        let depth = look(&surfaces, &self.pose, &self.intrinsics, noise);
-        let cloud = self.zone.cloud(&depth, &self.pose, self.apart_m);
+        let meshes: Vec<&TriangleMesh> = surfaces.iter().map(|surface| &surface.mesh).collect();
+        let shot = capture(&meshes, &self.pose, &self.intrinsics, &Noise::default(), noise);
+        let cloud = if self.by_colour {
+            let coloured = |pixel| shot.shows(pixel, |mesh| surfaces[mesh].is_object);
+            self.zone.coloured(&shot.image, &self.pose, coloured)
+        } else {
+            self.zone.cloud(&shot.image, &self.pose, self.apart_m)
+        };
         let camera_position = Point3::from(self.pose.translation.vector);
-        Ok(Observation { depth: Some(depth), cloud, camera_position })
+        Ok(Observation { depth: Some(shot.image), cloud, camera_position })
     }
 }
 

@@ -8,7 +8,7 @@ use crate::network::{FEATURES, Network, Sizes};
 use crate::readout::{Readout, read};
 use crate::stance::Lens;
 use crate::units::unfold;
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Translation3, Vector3};
 use rayon::prelude::*;
 use seeone_core::random::generator;
 use seeone_core::{Diagnostic, Similarity};
@@ -23,6 +23,10 @@ const PASSES: usize = 3;
 const LAST_DRAWS: usize = 4;
 /// Most points that are answered for.
 pub const MOST_POINTS: usize = 2048;
+/// What is this far above the mat does not lie on it, metres.
+const ABOVE_MAT_M: f64 = 0.05;
+/// Share of a cloud's points that may lie below all of the object.
+const WRONG_POINTS: f64 = 0.01;
 /// File names of the two networks' weights.
 pub const COARSE_FILE: &str = "coarse.safetensors";
 /// See [`COARSE_FILE`].
@@ -42,6 +46,14 @@ pub struct Perceived {
     pub features: Vec<f32>,
     /// `world` -> centred canonical coordinates (`nocs - 0.5`), by robust fit.
     pub alignment: Similarity,
+}
+
+impl Perceived {
+    /// Mean of all confidences.
+    fn certainty(&self) -> f64 {
+        let all = self.confidence.iter().flatten();
+        all.sum::<f64>() / (3 * self.confidence.len()).max(1) as f64
+    }
 }
 
 /// Why nothing was perceived.
@@ -111,9 +123,35 @@ impl Nst {
 
     /// Perceives a cloud in `world` (gravity along -z, metres) seen from `camera`.
     ///
+    /// What is well above the mat either hangs, as the training's lifted objects do, or stands on
+    /// something else, such as a head, as the training's others do on the mat. Which of both
+    /// is not told: it is perceived as it is and let down to the mat, and the more confident
+    /// answer counts.
+    ///
     /// # Errors
     /// [`NstError`].
     pub fn perceive(
+        &self,
+        points: &[Point3<f64>],
+        camera: &Point3<f64>,
+    ) -> Result<Perceived, NstError> {
+        let as_it_is = self.perceive_there(points, camera);
+        let lowest = lowest(points);
+        if !lowest.is_finite() || lowest < ABOVE_MAT_M {
+            return as_it_is;
+        }
+        let down = Translation3::new(0.0, 0.0, -lowest);
+        let lowered: Vec<Point3<f64>> = points.iter().map(|p| down * p).collect();
+        match (as_it_is, self.perceive_there(&lowered, &(down * camera))) {
+            (Ok(as_it_is), Ok(lowered)) if as_it_is.certainty() < lowered.certainty() => {
+                Ok(Perceived { alignment: lowered.alignment * down, ..lowered })
+            }
+            (Err(_), Ok(lowered)) => Ok(Perceived { alignment: lowered.alignment * down, ..lowered }),
+            (as_it_is, _) => as_it_is,
+        }
+    }
+
+    fn perceive_there(
         &self,
         points: &[Point3<f64>],
         camera: &Point3<f64>,
@@ -199,6 +237,13 @@ impl Nst {
         debug_assert_eq!(features.len(), asked.len() * FEATURES);
         Ok((readout, features))
     }
+}
+
+/// How high the lowest points are, but for a few that a camera got wrong, metres.
+fn lowest(points: &[Point3<f64>]) -> f64 {
+    let mut heights: Vec<f64> = points.iter().map(|p| p.z).collect();
+    heights.sort_by(f64::total_cmp);
+    heights.get((WRONG_POINTS * heights.len() as f64) as usize).copied().unwrap_or(f64::NAN)
 }
 
 fn checked(points: &[Point3<f64>], camera: &Point3<f64>) -> Result<Vec<Vector3<f64>>, NstError> {

@@ -91,7 +91,7 @@ fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> 
         tries: args.cell.tries,
         grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
         grasped_at_first_try: Rate::of(
-            attempts.iter().map(|o| o.grasped == Some(true) && o.tries == 1),
+            attempts.iter().map(|o| o.grasped_at_first == Some(true)),
         ),
         placed: Placed::of(measure, &attempts),
         failures,

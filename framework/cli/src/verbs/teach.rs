@@ -16,7 +16,7 @@ use seeone_core::{Cloud, Diagnostic, Pose};
 use seeone_plugin::{
     GripperCommand, Judge, KeyPose, Kind, Measure, MotionOutcome, MotionTask, Program, Setup,
 };
-use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, Skill, Stage, is_name};
+use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, ShownResult, Skill, Stage, is_name};
 use seeone_runtime::plugins::configuration;
 use seeone_runtime::run::{Acted, Cancel, Execution, Hull};
 use seeone_sim::cell::Cell;
@@ -32,6 +32,10 @@ const PITCH_DEG: f64 = 2.0;
 const GRIP_N: f64 = 140.0;
 /// A cloud of more points is thinned to about so many.
 const CLOUD_POINTS: usize = 4096;
+/// How far from where the shown one lay an object may lie, metres and degrees: what the perception
+/// of a worn cap is sure of, and about a tenth of a cap's diameter.
+const WITHIN_M: f64 = 0.03;
+const WITHIN_DEG: f64 = 10.0;
 /// A demonstration that ends farther from the worn state teaches nothing, share of d.
 const TOLERANCE_D: f64 = 0.1;
 
@@ -74,6 +78,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         Shown::Wearing => wearing::lesson(&cell, &scene)?,
         Shown::Hanging => hanging::lesson(&cell, &scene)?,
     };
+    let last = lesson.stages.last().ok_or_else(|| anyhow!("the lesson has no stage"))?;
     let key_poses: Vec<KeyPose> = lesson.stages.iter().map(key_pose).collect();
     let start = arm.state()?.joints;
     let obstacles = scene.obstacles();
@@ -120,12 +125,30 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         console::tell("the demonstration failed; nothing was written; try another --seed");
         return Ok(Ending::Failure);
     }
+    // Looked at as a run will: the hand is back where it waits.
+    let home = KeyPose { stage: "look".into(), pose: robot.tool_pose(robot.home()), ..key_pose(last) };
+    let start = arm.state()?.joints;
+    let look = MotionTask {
+        start: &start,
+        holding: false,
+        carried: &[],
+        key_poses: &[KeyPose { gripper: None, retreat_m: 0.0, until_contact_n: None, ..home }],
+        obstacles: &obstacles,
+    };
+    if let MotionOutcome::Planned { program, .. } = motion.plan(&robot, kinematics.as_ref(), &look)? {
+        for step in &program.steps {
+            arm.execute(&step.action, &mut |_| Ok(()))?;
+        }
+    }
+    let seen_result = camera.observe()?.cloud;
+    let folder = args.skill.with_extension("");
+    let result = shown_result(last, &folder.join("result.ply")).filter(|_| !seen_result.is_empty());
     let skill = Skill {
         name: name.to_owned(),
         category: object.category().to_owned(),
         summary: lesson.summary.into(),
         demonstration: Demonstration {
-            cloud: args.skill.with_extension("").join("demonstration.ply"),
+            cloud: folder.join("demonstration.ply"),
             camera_position: observation.camera_position,
             frames: lesson.frames,
         },
@@ -138,9 +161,10 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
             (Kind::Kinematics, "qp-ik".to_owned()),
             (Kind::Motion, "motion".to_owned()),
         ]),
+        result,
         measure: lesson.measure,
     };
-    write(&skill, &args.skill, &observation.cloud)?;
+    write(&skill, &args.skill, &observation.cloud, &seen_result)?;
     Ok(Ending::Success)
 }
 
@@ -150,6 +174,17 @@ struct Lesson {
     frames: BTreeMap<String, Pose>,
     stages: Vec<Stage>,
     measure: Measure,
+}
+
+/// The result to be looked for after `last`, in the frame that it moves with.
+fn shown_result(last: &Stage, cloud: &Path) -> Option<ShownResult> {
+    let RelativeTo::Frame(frame) = &last.relative_to else { return None };
+    Some(ShownResult {
+        cloud: cloud.to_owned(),
+        frame: frame.clone(),
+        within_m: WITHIN_M,
+        within_deg: WITHIN_DEG,
+    })
 }
 
 /// The visor's front edge, by which the expert takes every cap, and the cell as it is now.
@@ -205,17 +240,20 @@ fn key_pose(stage: &Stage) -> KeyPose {
     }
 }
 
-/// Writes the cloud, then the skill that names it.
-fn write(skill: &Skill, path: &Path, cloud: &Cloud) -> Result<()> {
+/// Writes the clouds, then the skill that names them.
+fn write(skill: &Skill, path: &Path, cloud: &Cloud, result: &Cloud) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let text = skill.to_toml(folder)?;
     if let Some(folder) = skill.demonstration.cloud.parent() {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     }
-    let stride = cloud.len().div_ceil(CLOUD_POINTS).max(1);
-    let thinned = cloud.points().iter().step_by(stride).copied().collect();
-    let thinned = Cloud::new(thinned).unwrap_or_default();
-    ply::write_cloud(&skill.demonstration.cloud, &thinned, Encoding::BinaryLittleEndian)?;
+    let results = skill.result.iter().map(|shown| (&shown.cloud, result));
+    for (path, cloud) in results.chain([(&skill.demonstration.cloud, cloud)]) {
+        let stride = cloud.len().div_ceil(CLOUD_POINTS).max(1);
+        let thinned = cloud.points().iter().step_by(stride).copied().collect();
+        let thinned = Cloud::new(thinned).unwrap_or_default();
+        ply::write_cloud(path, &thinned, Encoding::BinaryLittleEndian)?;
+    }
     write_whole(path, text.as_bytes())
         .with_context(|| format!("cannot write {}", path.display()))?;
     console::tell(&format!("wrote {} and {}", path.display(), skill.demonstration.cloud.display()));

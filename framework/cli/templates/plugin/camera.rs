@@ -1,5 +1,6 @@
 //! `my-plugin`, a plugin of kind `camera`: sees points on every surface of the simulated world
-//! that lies in its box, hidden or not. For a real camera, ask its driver instead of the world.
+//! that lies in its box or has the target's colour, hidden or not. For a real camera, ask its
+//! driver instead of the world.
 
 use nalgebra::Point3;
 use seeone_core::Cloud;
@@ -21,6 +22,9 @@ struct Configuration {
     pose: PoseFields,
     /// Where the target is looked for.
     crop: Crop,
+    /// Whether the target is told by its colour instead, wherever it is.
+    #[serde(default)]
+    by_colour: bool,
     /// The lens, which this camera has no use for.
     #[serde(default, rename = "intrinsics")]
     _intrinsics: Option<seeone_core::Intrinsics>,
@@ -59,6 +63,7 @@ pub struct MyPlugin {
     world: Arc<dyn World>,
     position: Point3<f64>,
     crop: Crop,
+    by_colour: bool,
     points: usize,
     random: Generator,
 }
@@ -70,11 +75,11 @@ impl MyPlugin {
     /// [`PluginError::Configuration`] for a table that is no camera's, or a cell that is not
     /// simulated.
     pub fn from_setup(setup: &Setup) -> Result<Self, PluginError> {
-        let Configuration { pose, crop, points, .. } = setup.configuration()?;
+        let Configuration { pose, crop, by_colour, points, .. } = setup.configuration()?;
         let pose = pose.resolve().map_err(PluginError::Configuration)?;
         let position = Point3::from(pose.translation.vector);
         let random = generator(setup.seed, "my-plugin");
-        Ok(Self { world: setup.world()?, position, crop, points, random })
+        Ok(Self { world: setup.world()?, position, crop, by_colour, points, random })
     }
 }
 
@@ -82,9 +87,11 @@ impl Camera for MyPlugin {
     fn observe(&mut self) -> Result<Observation, PluginError> {
         let mut corners = Vec::new();
         for surface in self.world.surfaces()? {
-            let inside = (0..surface.triangles().len()).map(|i| surface.corners(i));
-            corners.extend(inside.filter(|c| {
-                self.crop.holds(&Point3::from((c[0].coords + c[1].coords + c[2].coords) / 3.0))
+            let mesh = surface.mesh;
+            let triangles = (0..mesh.triangles().len()).map(|i| mesh.corners(i));
+            corners.extend(triangles.filter(|c| {
+                let middle = Point3::from((c[0].coords + c[1].coords + c[2].coords) / 3.0);
+                if self.by_colour { surface.is_object } else { self.crop.holds(&middle) }
             }));
         }
         let area = |c: &[Point3<f64>; 3]| (c[1] - c[0]).cross(&(c[2] - c[0])).norm();

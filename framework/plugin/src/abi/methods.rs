@@ -65,7 +65,8 @@ pub enum Method {
     CloseFingers = 19,
     /// The world: opening `->` nothing.
     OpenFingers = 20,
-    /// The world: nothing `->` list of meshes: points, list of triangles (three numbers each).
+    /// The world: nothing `->` list of surfaces: points, list of triangles
+    /// (three numbers each), whether it has the colour of the objects to be taken.
     Surfaces = 21,
     /// Robot: nothing `->` nothing. It stands still where it is.
     Stop = 22,

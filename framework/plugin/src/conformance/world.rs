@@ -1,6 +1,6 @@
 //! A world in which nothing happens but what the hand does, for plugins that need one.
 
-use crate::{PluginError, World, WorldState};
+use crate::{PluginError, Surface, World, WorldState};
 use nalgebra::{Point3, Vector3};
 use seeone_core::{Pose, TriangleMesh};
 use std::sync::{Mutex, PoisonError};
@@ -83,9 +83,11 @@ impl World for StillWorld {
         Ok(())
     }
 
-    fn surfaces(&self) -> Result<Vec<TriangleMesh>, PluginError> {
+    fn surfaces(&self) -> Result<Vec<Surface>, PluginError> {
         let table = cuboid(Point3::new(0.0, 0.0, -0.01), Vector3::new(2.0, 2.0, 0.01));
-        Ok(vec![table, cuboid(self.block, Vector3::repeat(BLOCK_M))])
+        let block = cuboid(self.block, Vector3::repeat(BLOCK_M));
+        let surface = |mesh, is_object| Surface { mesh, is_object };
+        Ok(vec![surface(table, false), surface(block, true)])
     }
 }
 

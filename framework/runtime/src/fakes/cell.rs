@@ -3,12 +3,14 @@
 use super::solvers::{FakeEncoding, FakeKinematics, FakeMotion, FakePerception, FakeTransfer};
 use super::{LeastSquares, canonical_cloud};
 use crate::files::{
-    Demonstration, Drop, Head, RelativeTo, RobotFile, Scene, Skill, Stage, Table, Targets,
+    Demonstration, Drop, Head, RelativeTo, RobotFile, Scene, ShownResult, Skill, Stage, Table,
+    Targets,
 };
 use crate::methods::Methods;
 use crate::plugins::Plugins;
 use crate::registry::Registry;
 use crate::run::Assignment;
+use crate::transfer::ANCHOR;
 use nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector2, Vector3};
 use seeone_core::formats::ply::{Encoding, write_cloud};
 use seeone_core::robot::RobotOptions;
@@ -21,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// What goes wrong in a fake cell.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,6 +52,8 @@ pub(crate) struct Behaviour {
     pub(crate) spoils: bool,
     /// Whether nothing is in sight any more once the hand closed.
     pub(crate) clears: bool,
+    /// How many times what is let go falls back to where it lay.
+    pub(crate) falls: usize,
 }
 
 pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginError> {
@@ -58,19 +62,32 @@ pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginErro
     if fails { Err(PluginError::Internal(format!("broken {step}"))) } else { Ok(()) }
 }
 
-struct FakeCamera(Behaviour, Cloud, Moved);
+struct FakeCamera {
+    behaviour: Behaviour,
+    lying: Cloud,
+    worn: Cloud,
+    closed: Moved,
+    releases: Releases,
+}
 
 impl Camera for FakeCamera {
     fn observe(&mut self) -> Result<Observation, PluginError> {
-        broken(&self.0, "observe")?;
-        let cleared = self.0.clears && self.2.load(Ordering::Relaxed);
-        let cloud = if self.0.blind || cleared { Cloud::default() } else { self.1.clone() };
+        let Self { behaviour, lying, worn, .. } = self;
+        broken(behaviour, "observe")?;
+        let cleared = behaviour.clears && self.closed.load(Ordering::Relaxed);
+        let cloud = match self.releases.load(Ordering::Relaxed) > behaviour.falls {
+            _ if behaviour.blind || cleared => Cloud::default(),
+            true => worn.clone(),
+            false => lying.clone(),
+        };
         Ok(Observation { depth: None, cloud, camera_position: Point3::new(0.9, -0.4, 0.6) })
     }
 }
 
 /// Whether the robot ever moved, for the judge to see; or ever closed its hand, for the camera.
 type Moved = Arc<AtomicBool>;
+/// How often the robot let go of something it held.
+type Releases = Arc<AtomicUsize>;
 
 struct FakeRobot {
     behaviour: Behaviour,
@@ -79,6 +96,7 @@ struct FakeRobot {
     holding: bool,
     moved: Moved,
     closed: Moved,
+    releases: Releases,
 }
 
 impl Robot for FakeRobot {
@@ -97,6 +115,7 @@ impl Robot for FakeRobot {
                 self.opening_m = if self.holding { 0.003 } else { 0.0 };
             }
             Action::Grip(GripperCommand::Open { opening_m }) => {
+                self.releases.fetch_add(usize::from(self.holding), Ordering::Relaxed);
                 self.holding = false;
                 self.opening_m = *opening_m;
             }
@@ -196,9 +215,23 @@ impl FakeCell {
                 stage("release", RelativeTo::Frame("head".into()), release(&head)),
             ],
             methods: BTreeMap::new(),
+            result: None,
             measure: Measure::Worn { tolerance_d: 0.1 },
         };
         Self { folder, placed, skill, scene: scene(moved_head) }
+    }
+
+    /// The same cell with a skill whose result was shown, too: the cap worn level.
+    pub(crate) fn with_result() -> Self {
+        let mut cell = Self::new();
+        let path = cell.folder.path().join("result.ply");
+        let worn = worn_on(&cell.skill.demonstration.frames["head"], 0.27);
+        let shown = Cloud::new(canonical_cloud(&worn).points).unwrap();
+        write_cloud(&path, &shown, Encoding::BinaryLittleEndian).unwrap();
+        let frame = "head".to_owned();
+        let result = ShownResult { cloud: path, frame, within_m: 0.01, within_deg: 5.0 };
+        cell.skill.result = Some(result);
+        cell
     }
 
     pub(crate) fn assignment(&self) -> Assignment {
@@ -212,9 +245,17 @@ impl FakeCell {
 
     pub(crate) fn plugins(&self, behaviour: Behaviour) -> Plugins {
         let (moved, closed) = (Moved::default(), Moved::default());
-        let seen = Cloud::new(canonical_cloud(&self.placed[1]).points).unwrap();
+        let releases = Releases::default();
+        let cloud = |placed: &Similarity| Cloud::new(canonical_cloud(placed).points).unwrap();
+        let head = self.scene.head().map_or(Pose::identity(), |head| head.pose);
         Plugins {
-            camera: Box::new(FakeCamera(behaviour, seen, closed.clone())),
+            camera: Box::new(FakeCamera {
+                behaviour,
+                lying: cloud(&self.placed[1]),
+                worn: cloud(&worn_on(&head, 0.29)),
+                closed: closed.clone(),
+                releases: releases.clone(),
+            }),
             perception: Box::new(FakePerception(behaviour)),
             encoding: Box::new(FakeEncoding(behaviour)),
             alignment: Box::new(LeastSquares),
@@ -228,6 +269,7 @@ impl FakeCell {
                 holding: behaviour.holds,
                 moved: moved.clone(),
                 closed,
+                releases,
             }),
             judge: Some(Box::new(FakeJudge(behaviour, moved))),
         }
@@ -244,8 +286,14 @@ fn grasp(placed: &Similarity) -> Pose {
 
 /// The same grasp with the cap worn level on the head.
 fn release(head: &Pose) -> Pose {
-    let worn = similarity([-0.135, -0.135, -0.07], [0.0; 3], 0.27);
-    head * grasp(&worn)
+    grasp(&worn_on(head, 0.27))
+}
+
+/// A cap of `scale` metres a canonical unit, worn level on the head: canonical -> `world`.
+fn worn_on(head: &Pose, scale: f64) -> Similarity {
+    let back = Vector3::new(-0.135, -0.135, -0.07) + ANCHOR.coords * 0.27;
+    let origin = back - ANCHOR.coords * scale;
+    Similarity::from_isometry(*head, 1.0) * similarity(origin.into(), [0.0; 3], scale)
 }
 
 fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
@@ -279,6 +327,7 @@ fn scene(head: Pose) -> Scene {
         places: BTreeMap::new(),
         camera_plugin: None,
         camera_cloud: None,
+        camera_by_colour: false,
         camera: Pose::identity(),
         intrinsics: Intrinsics { width: 64, height: 48, fx: 38.0, fy: 38.0, cx: 31.5, cy: 23.5 },
         drop: Drop {

@@ -19,6 +19,7 @@ mod robot_file;
 mod scene;
 mod scene_file;
 mod schema;
+mod shown_result;
 mod skill;
 mod skill_file;
 mod skill_text;
@@ -34,7 +35,7 @@ pub use resolver::is_name;
 pub use robot_file::RobotFile;
 pub use scene::{Beside, Drop, Head, Hook, Scene, Table, Targets};
 pub use schema::schema;
-pub use skill::{Demonstration, RelativeTo, Skill, Stage};
+pub use skill::{Demonstration, RelativeTo, ShownResult, Skill, Stage};
 pub use task::{SkillUse, Task, TaskStep, Work};
 
 use seeone_plugin::Kind;

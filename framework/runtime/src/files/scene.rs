@@ -98,6 +98,9 @@ pub struct Scene {
     pub camera_plugin: Option<String>,
     /// A recorded cloud, for a camera plugin that shows one.
     pub camera_cloud: Option<PathBuf>,
+    /// Whether the camera tells the object by its colour, wherever it is in the picture, and not
+    /// as what lies in the box of the drop zone.
+    pub camera_by_colour: bool,
     /// The camera's frame in `world`: x right, y down, z forward.
     pub camera: Pose,
     /// The camera's intrinsics.
@@ -182,7 +185,8 @@ impl Scene {
 
     /// The table of configuration from which the camera plugin is built: `pose`,
     /// `intrinsics`, and `crop` with `centre_xy_m`, `half_extents_m`, `floor_m` and
-    /// `height_m`, the box in `world` that holds the target, with `apart_m` where it may hold several; `cloud` where the file has it.
+    /// `height_m`, the box in `world` that holds the target, with `apart_m` where it may hold
+    /// several; `by_colour` and `cloud` where the file has them.
     pub fn camera_table(&self) -> toml::Table {
         let pose = PoseFields::from(&self.camera);
         let lens = &self.intrinsics;
@@ -214,6 +218,9 @@ impl Scene {
             ("intrinsics", intrinsics.into()),
             ("crop", crop.into()),
         ]);
+        if self.camera_by_colour {
+            camera.insert("by_colour".into(), true.into());
+        }
         if let Some(cloud) = &self.camera_cloud {
             camera.insert("cloud".into(), cloud.to_string_lossy().into_owned().into());
         }

@@ -92,6 +92,10 @@ struct RawCamera {
     plugin: Option<Spanned<String>>,
     /// A recorded PLY cloud below the scene's folder, for a plugin that shows one.
     cloud: Option<Spanned<String>>,
+    /// Whether the object is told by its colour, wherever it is in the picture; `false` when it is
+    /// not said, and it is then what lies in the box of `[drop]`.
+    #[serde(default)]
+    by_colour: bool,
     /// Its frame: x right, y down, z forward.
     pose: Spanned<RawPose>,
     /// Its intrinsics.
@@ -165,6 +169,7 @@ impl Scene {
                 // A plugin resolves paths against another folder than this file's.
                 path.canonicalize().unwrap_or(path)
             }),
+            camera_by_colour: raw.camera.by_colour,
             camera: resolver.pose("pose", &raw.camera.pose),
             intrinsics: intrinsics(&mut resolver, &raw.camera.intrinsics),
             drop,

@@ -53,6 +53,20 @@ pub struct Demonstration {
     pub frames: BTreeMap<String, Pose>,
 }
 
+/// How the object lay when the demonstration was over, and how nearly another has to lie so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownResult {
+    /// The PLY file of the object's points in `world`, metres, after the last stage, seen from
+    /// where the demonstration was seen.
+    pub cloud: PathBuf,
+    /// The frame of the demonstration in which it lies.
+    pub frame: String,
+    /// How far from there another object may be, metres.
+    pub within_m: f64,
+    /// By how much its up axis may be turned against how it was, degrees.
+    pub within_deg: f64,
+}
+
 /// A skill. One that was read from a file has at least one stage, the first of which moves
 /// with the object; names are unique; every frame a stage names is in the demonstration.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,13 +83,15 @@ pub struct Skill {
     pub stages: Vec<Stage>,
     /// Names of plugins, where the skill asks for one.
     pub methods: BTreeMap<Kind, String>,
+    /// What the robot looks for itself when it is done, if anything.
+    pub result: Option<ShownResult>,
     /// What counts as success.
     pub measure: Measure,
 }
 
 impl Skill {
-    /// The frames that a scene must have: those that stages move with, and the one by which
-    /// success is measured. A frame may come more than once.
+    /// The frames that a scene must have: those that stages move with, the one in which the result
+    /// is looked at, and the one by which success is measured. A frame may come more than once.
     pub fn frames(&self) -> impl Iterator<Item = &str> {
         let measured = match &self.measure {
             Measure::Worn { .. } => "head",
@@ -86,7 +102,8 @@ impl Skill {
             RelativeTo::Frame(name) => Some(name.as_str()),
             RelativeTo::Object => None,
         });
-        moved_with.chain([measured])
+        let looked_at = self.result.iter().map(|result| result.frame.as_str());
+        moved_with.chain(looked_at).chain([measured])
     }
 }
 

@@ -6,6 +6,7 @@ use super::measure::{RawSuccess, measure};
 use super::pose::RawPose;
 use super::resolver::Resolver;
 use super::source::Source;
+use super::shown_result::{RawResult, shown_result};
 use super::spanned::Spanned;
 use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
 use nalgebra::Point3;
@@ -41,6 +42,8 @@ pub(super) struct RawSkill {
     /// Plugins by kind, where the skill asks for one.
     #[serde(default)]
     methods: BTreeMap<Spanned<String>, Spanned<String>>,
+    /// What the robot looks for itself when it is done; left out, it does not look again.
+    result: Option<RawResult>,
     /// What counts as success.
     success: RawSuccess,
 }
@@ -132,6 +135,10 @@ impl Skill {
             summary: raw.summary,
             stages: stages(&mut resolver, &raw.stage, &demonstration),
             methods: methods(&mut resolver, &raw.methods, known),
+            result: raw
+                .result
+                .as_ref()
+                .map(|raw| shown_result(&mut resolver, raw, &demonstration)),
             measure: measure(&mut resolver, &raw.success, &demonstration),
             demonstration,
         };

@@ -11,18 +11,14 @@ impl Skill {
     /// The text of this skill's file, which lies in `folder`: the cloud is named from there.
     ///
     /// # Errors
-    /// `S024` when the cloud does not lie below `folder`.
+    /// `S024` when a cloud does not lie below `folder`.
     pub fn to_toml(&self, folder: &Path) -> Result<String, Diagnostic> {
-        let cloud = self.demonstration.cloud.strip_prefix(folder).map_err(|_| {
-            Diagnostic::new("S024", "the cloud does not lie in the skill's own folder")
-                .in_file(&self.demonstration.cloud)
-        })?;
         let mut text = String::from("schema = 1\n");
         line(&mut text, "name", quoted(&self.name));
         line(&mut text, "category", quoted(&self.category));
         line(&mut text, "summary", quoted(&self.summary));
         text.push_str("\n[demonstration]\n");
-        line(&mut text, "cloud", quoted(&cloud.to_string_lossy()));
+        line(&mut text, "cloud", quoted(&below(folder, &self.demonstration.cloud)?));
         let camera: [f64; 3] = self.demonstration.camera_position.into();
         line(&mut text, "camera_xyz_m", numbers(&camera));
         for (name, frame) in &self.demonstration.frames {
@@ -37,9 +33,24 @@ impl Skill {
                 line(&mut text, kind.name(), quoted(name));
             }
         }
+        if let Some(result) = &self.result {
+            text.push_str("\n[result]\n");
+            line(&mut text, "cloud", quoted(&below(folder, &result.cloud)?));
+            line(&mut text, "relative_to", quoted(&result.frame));
+            line(&mut text, "within_m", number(result.within_m));
+            line(&mut text, "within_deg", number(result.within_deg));
+        }
         success_text(&mut text, &self.measure);
         Ok(text)
     }
+}
+
+/// The path of a cloud from `folder`.
+fn below(folder: &Path, cloud: &Path) -> Result<String, Diagnostic> {
+    let path = cloud.strip_prefix(folder).map_err(|_| {
+        Diagnostic::new("S024", "the cloud does not lie in the skill's own folder").in_file(cloud)
+    })?;
+    Ok(path.to_string_lossy().into_owned())
 }
 
 fn success_text(text: &mut String, measure: &Measure) {

@@ -5,6 +5,7 @@ use super::bench::Bench;
 use super::execution::{Ended, Execution};
 use super::plan::Planned;
 use super::step::{Failed, StageEvent, Step};
+use super::withdraw::Withdraw;
 use bevy_ecs::prelude::*;
 use seeone_plugin::{Judge, RobotSample};
 
@@ -25,8 +26,12 @@ pub struct Acted {
     pub robot: Vec<RobotSample>,
     /// Where the object was, about ten times a second.
     pub object: Vec<Snapshot>,
-    /// Whether the object was held after the lift, where anybody could tell.
+    /// Whether the object was held after the lift, in any try, where anybody could tell.
     pub grasped: Option<bool>,
+    /// Whether it was in the first try.
+    pub grasped_at_first: Option<bool>,
+    /// Whether any try was carried out to its end.
+    pub carried_out: bool,
     /// How often the robot reached for the object.
     pub tries: usize,
 }
@@ -38,9 +43,9 @@ impl Acted {
     }
 }
 
-/// Left on a run whose hand closed on nothing and went back, to look again.
+/// Left on a run that did not come out and has tries left: it looks again.
 #[derive(Component, Clone, Copy, Debug)]
-pub(super) struct Missed;
+pub(super) struct Again;
 
 pub(super) fn act(
     mut commands: Commands,
@@ -78,13 +83,20 @@ pub(super) fn act(
         let ended =
             ended.unwrap_or_else(|reason| Err(Failed { stage: Step::Act.name().into(), reason }));
         match ended {
-            Ok(Ended::Done) => {}
-            Ok(Ended::Missed) => _ = commands.entity(run).insert(Missed),
+            Ok(Ended::Done) => acted.carried_out = true,
+            Ok(Ended::Missed) => _ = commands.entity(run).insert(Again),
             Err(failed) => {
                 let (name, reason) = (failed.stage.clone(), Some(failed.reason.clone()));
                 bench.tell(StageEvent { name, ok: false, seconds: 0.0, reason });
-                commands.entity(run).insert(failed);
+                // Wherever the hand is now, it goes back before it looks.
+                match last_try || cancel.is_ordered() {
+                    true => commands.entity(run).insert(failed),
+                    false => commands.entity(run).insert((Again, Withdraw)),
+                };
             }
+        }
+        if acted.tries == 1 {
+            acted.grasped_at_first = acted.grasped.or(Some(false).filter(|_| bench.has_judge()));
         }
         commands.entity(run).insert(acted);
     }

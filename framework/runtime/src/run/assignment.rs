@@ -22,6 +22,8 @@ pub struct Assignment {
     pub(super) robot: RobotModel,
     pub(super) methods: Methods,
     pub(super) demonstration: Cloud,
+    /// How the object lay when the demonstration was over, where the skill has it.
+    pub(super) result: Option<Cloud>,
     pub(super) frames: BTreeMap<String, Pose>,
     /// The object's name, for the report.
     pub object: String,
@@ -44,7 +46,7 @@ impl Assignment {
     /// An assignment with seed 0 that is tried once and not recorded.
     ///
     /// # Errors
-    /// `P0xx` when the demonstration's cloud cannot be read, `M005` when the skill has no
+    /// `P0xx` when a cloud of the demonstration cannot be read, `M005` when the skill has no
     /// stage or the scene lacks a frame that it needs.
     pub fn new(
         skill: Skill,
@@ -71,6 +73,8 @@ impl Assignment {
             return Err(Diagnostic::new("M005", format!("skill {:?} has no stage", skill.name)));
         }
         let demonstration = ply::read_cloud(&skill.demonstration.cloud)?;
+        let result = skill.result.as_ref().map(|shown| ply::read_cloud(&shown.cloud));
+        let result = result.transpose()?;
         let mut frames = BTreeMap::new();
         for name in skill.frames() {
             let target = targets.get(name).map_or(name, String::as_str);
@@ -101,6 +105,7 @@ impl Assignment {
             robot,
             methods,
             demonstration,
+            result,
             frames,
         })
     }

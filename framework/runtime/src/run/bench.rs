@@ -49,6 +49,11 @@ impl Bench {
         self.timings_ms.clear();
     }
 
+    /// Whether anybody can tell how the cell really is.
+    pub(super) fn has_judge(&self) -> bool {
+        self.plugins.judge.is_some()
+    }
+
     /// What ends the run from outside.
     pub(crate) fn cancel(&self) -> &Cancel {
         &self.hooks.cancel

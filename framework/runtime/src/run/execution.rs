@@ -141,7 +141,7 @@ impl Execution<'_> {
     /// of the first stage, or its last step when it has none.
     fn lifted(&self, step: &Step, rest: &VecDeque<Step>) -> bool {
         let mut to_come = rest.iter().filter(|next| next.stage == self.first());
-        self.acted.grasped.is_none()
+        self.acted.grasped != Some(true)
             && step.stage == self.first()
             && (step.purpose == "lift" || to_come.next().is_none())
     }

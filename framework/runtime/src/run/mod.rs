@@ -10,19 +10,21 @@
 //! | transfer | both fields | [`Transferred`] |
 //! | plan | candidates, robot, scene | [`Planned`] |
 //! | act | program | [`Acted`] |
+//! | check | the result that was shown | [`Checked`] |
 //! | judge | the world | [`Judged`] |
 //! | record | all of it | a recording |
 //!
 //! A step that cannot do its work leaves [`Failed`], and the steps after it are passed over;
 //! judging and recording are not, so that every run ends with a verdict and a whole file.
 //! The first two are for runs of a [`task`](crate::task) alone.
-//! Withdraw to act are one schedule, made again when the hand closed on nothing; judge and record
+//! Withdraw to check are one schedule, made again when it did not come out; judge and record
 //! are another. Both are single-threaded and chained; no step reads a clock but the one that is
 //! handed in, and nothing of that goes into a recording.
 
 mod act;
 mod assignment;
 mod bench;
+mod check;
 mod cancel;
 mod encode;
 mod execution;
@@ -42,6 +44,7 @@ mod withdraw;
 pub use act::{Acted, Snapshot};
 pub use assignment::Assignment;
 pub use bench::Hooks;
+pub use check::Checked;
 pub use cancel::Cancel;
 pub use encode::Encoded;
 pub use execution::{Ended, Execution};

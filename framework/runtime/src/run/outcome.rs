@@ -1,5 +1,6 @@
 //! What is told of a run.
 
+use super::act::Acted;
 use super::assignment::Assignment;
 use super::bench::Bench;
 use super::record::Recorded;
@@ -28,8 +29,13 @@ pub struct Outcome {
     pub tries: usize,
     /// The step of the run, or the stage of the skill, at which it ended early.
     pub failed_at: Option<String>,
-    /// Held after the lift; `None` when nobody could tell, as after a dry run.
+    /// Whether the robot itself, which looked when it was done, holds the object to lie as it was
+    /// shown; `None` where it did not look.
+    pub as_shown: Option<bool>,
+    /// Held after the lift, in any try; `None` when nobody could tell, as after a dry run.
     pub grasped: Option<bool>,
+    /// The same of the first try.
+    pub grasped_at_first: Option<bool>,
     /// Every stage carried out, and within the skill's tolerance; `None` when nobody could tell.
     pub success: Option<bool>,
     /// Mean vertex distance to the worn state, metres.
@@ -59,7 +65,8 @@ impl Outcome {
         assignment: &Assignment,
         bench: &Bench,
         verdict: Option<&Verdict>,
-        tries: usize,
+        acted: Option<&Acted>,
+        as_shown: Option<bool>,
         failed: Option<&Failed>,
         recorded: Option<&Recorded>,
     ) -> Self {
@@ -76,9 +83,11 @@ impl Outcome {
             robot: assignment.robot_name.clone(),
             seed: assignment.seed,
             methods: methods.collect(),
-            tries,
+            tries: acted.map_or(0, |acted| acted.tries),
             failed_at: failed.map(|failed| failed.stage.clone()),
+            as_shown,
             grasped: verdict.map(|verdict| verdict.grasped),
+            grasped_at_first: acted.and_then(|acted| acted.grasped_at_first),
             success: verdict.map(|verdict| verdict.success),
             error_m: verdict.and_then(|verdict| verdict.error_m),
             error_d: verdict.and_then(|verdict| verdict.error_d),

@@ -6,6 +6,7 @@ use super::bench::Bench;
 use super::observe::Seen;
 use super::schedule::leave;
 use super::step::{Failed, Step};
+use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
 use seeone_plugin::{CanonicalCloud, Observation};
 
@@ -31,18 +32,22 @@ pub(super) fn perceive(
             camera_position: assignment.skill.demonstration.camera_position,
         };
         let perceived = bench.step(Step::Perceive, |plugins| {
-            let demonstration = plugins
-                .perception
-                .perceive(&shown)
-                .map_err(|e| format!("the demonstration: {e}"))?;
-            let instance = plugins.perception.perceive(&seen.0).map_err(|e| e.to_string())?;
-            for cloud in [&demonstration, &instance] {
-                sound(cloud)?;
-            }
+            let demonstration =
+                perceived(plugins, &shown).map_err(|e| format!("the demonstration: {e}"))?;
+            let instance = perceived(plugins, &seen.0)?;
             Ok(Perceived { demonstration, instance })
         });
         leave(&mut commands, run, perceived);
     }
+}
+
+/// What the perception says of `observation`, if it is sound.
+pub(super) fn perceived(
+    plugins: &mut Plugins,
+    observation: &Observation,
+) -> Result<CanonicalCloud, String> {
+    let cloud = plugins.perception.perceive(observation).map_err(|e| e.to_string())?;
+    sound(&cloud).map(|()| cloud)
 }
 
 /// What no plugin may hand on: vectors of unequal length, numbers that are not finite.

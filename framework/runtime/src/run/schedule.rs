@@ -1,14 +1,15 @@
 //! The ECS world and schedule of a run.
 
-use super::act::Missed;
+use super::act::Again;
 use super::assignment::Assignment;
 use super::bench::{Bench, Hooks};
+use super::check::Checked;
 use super::judge::Judged;
 use super::outcome::Outcome;
 use super::record::Recorded;
 use super::step::{Failed, Step};
 use super::{Acted, Encoded, Perceived, Planned, Seen, Transferred};
-use super::{act, encode, judge, observe, perceive, plan, record, require, transfer, withdraw};
+use super::{act, check, encode, judge, observe, perceive, plan, record, require, transfer, withdraw};
 use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
@@ -64,6 +65,7 @@ pub(crate) fn carry_out(world: &mut World, run: Entity) -> Outcome {
     {
         world.non_send_mut::<Bench>().stop_robot();
     }
+    forgive(world, run);
     conclude().run(world);
     let assignment =
         world.entity_mut(run).take::<Assignment>().expect("no step takes the assignment away");
@@ -71,17 +73,27 @@ pub(crate) fn carry_out(world: &mut World, run: Entity) -> Outcome {
         &assignment,
         world.non_send::<Bench>(),
         world.get::<Judged>(run).map(|judged| &judged.0),
-        world.get::<Acted>(run).map_or(0, |acted| acted.tries),
+        world.get::<Acted>(run),
+        world.get::<Checked>(run).map(|checked| checked.as_shown),
         world.get::<Failed>(run),
         world.get::<Recorded>(run),
     )
 }
 
-/// Whether the hand missed and there is another try; what the last one found is then gone,
+/// A try that fails takes nothing back of what one before it carried out to its end: it only was
+/// to make it better. Where the object is then, the world will tell.
+fn forgive(world: &mut World, run: Entity) {
+    let interrupted = world.non_send::<Bench>().cancel().is_ordered();
+    if !interrupted && world.get::<Acted>(run).is_some_and(|acted| acted.carried_out) {
+        world.entity_mut(run).remove::<Failed>();
+    }
+}
+
+/// Whether it did not come out and there is another try; what the last one found is then gone,
 /// all but what the robot did.
 fn again(world: &mut World, run: Entity) -> bool {
     let mut run = world.entity_mut(run);
-    if run.take::<Missed>().is_none() {
+    if run.take::<Again>().is_none() {
         return false;
     }
     run.remove::<(Seen, Perceived, Encoded, Transferred, Planned)>();
@@ -102,6 +114,7 @@ pub(super) fn attempt() -> Schedule {
             Step::Transfer,
             Step::Plan,
             Step::Act,
+            Step::Check,
         )
             .chain(),
     );
@@ -114,6 +127,7 @@ pub(super) fn attempt() -> Schedule {
         transfer::transfer.in_set(Step::Transfer),
         plan::plan.in_set(Step::Plan),
         act::act.in_set(Step::Act),
+        check::check.in_set(Step::Check),
     ));
     schedule
 }

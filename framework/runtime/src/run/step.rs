@@ -23,6 +23,8 @@ pub enum Step {
     Plan,
     /// Move.
     Act,
+    /// Look whether it came out as it was shown.
+    Check,
     /// See how it ended.
     Judge,
     /// Write it down.
@@ -31,13 +33,14 @@ pub enum Step {
 
 impl Step {
     /// Every step, in order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Observe,
         Self::Perceive,
         Self::Encode,
         Self::Transfer,
         Self::Plan,
         Self::Act,
+        Self::Check,
         Self::Judge,
         Self::Record,
     ];
@@ -53,6 +56,7 @@ impl Step {
             Self::Transfer => "transfer",
             Self::Plan => "plan",
             Self::Act => "act",
+            Self::Check => "check",
             Self::Judge => "judge",
             Self::Record => "record",
         }

@@ -169,6 +169,45 @@ fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
 }
 
 #[test]
+fn what_does_not_lie_as_it_was_shown_is_taken_again() {
+    let cell = FakeCell::with_result();
+    let tried = |falls: usize, tries: usize| {
+        let mut assignment = cell.assignment();
+        assignment.tries = tries;
+        let behaviour = Behaviour { falls, ..Behaviour::default() };
+        run(assignment, cell.plugins(behaviour), Hooks::default()).outcome
+    };
+    let checks = |outcome: &Outcome| {
+        let checks = outcome.stages.iter().filter(|stage| stage.name == "check");
+        checks.map(|stage| stage.ok).collect::<Vec<_>>()
+    };
+    let at_once = tried(0, 3);
+    assert_eq!((at_once.tries, at_once.as_shown, checks(&at_once)), (1, Some(true), vec![true]));
+    let told = at_once.stages.iter().find(|stage| stage.name == "check").unwrap();
+    assert_eq!(told.reason.as_deref(), Some("0 mm and 0 degrees from where it was shown"));
+    let second = tried(1, 3);
+    assert_eq!((second.tries, second.as_shown), (2, Some(true)));
+    assert_eq!(checks(&second), [false, true]);
+    // What the robot believes decides no verdict.
+    let never = tried(9, 2);
+    assert_eq!((never.tries, never.as_shown, never.success), (2, Some(false), Some(true)));
+    assert_eq!((checks(&never), never.failed_at), (vec![false, false], None));
+}
+
+#[test]
+fn what_was_lost_on_the_way_is_taken_again() {
+    let cell = FakeCell::new();
+    let mut assignment = cell.assignment();
+    assignment.tries = 2;
+    let behaviour = Behaviour { drops: true, ..Behaviour::default() };
+    let outcome = run(assignment, cell.plugins(behaviour), Hooks::default()).outcome;
+    let one_try = ["observe", "perceive", "encode", "transfer", "plan", "pick"];
+    let expected = [&one_try[..], &["withdraw"], &one_try[..], &["judge"]].concat();
+    assert_eq!((outcome.tries, names(&outcome)), (2, expected));
+    assert_eq!(outcome.reason, "pick: lost the object on the way (lift)");
+}
+
+#[test]
 fn contact_ends_a_line_and_the_rest_is_planned_from_there() {
     let mut cell = FakeCell::new();
     cell.skill.stages[1].until_contact_n = Some(20.0);

@@ -6,7 +6,6 @@ use super::assignment::Assignment;
 use super::bench::Bench;
 use super::cancel::Cancel;
 use super::plan::RETREAT_SHARES;
-use super::schedule::leave;
 use super::step::{Failed, Step};
 use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
@@ -16,33 +15,40 @@ use seeone_plugin::{GripperCommand, KeyPose, MotionOutcome, MotionTask, RobotSam
 /// How far the hand draws back from where it failed, metres, before it is free to go anywhere.
 const RETREAT_M: f64 = 0.15;
 
-/// On a run: one that failed came before it.
+/// On a run: one that failed, or a try that did, came before it.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Withdraw;
 
 pub(super) fn withdraw(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Withdraw), Without<Failed>>,
+    mut runs: Query<(Entity, &Assignment, Option<&mut Acted>), (With<Withdraw>, Without<Failed>)>,
 ) {
-    for (run, assignment, _) in &runs {
+    for (run, assignment, before) in &mut runs {
         if assignment.dry_run {
             continue;
         }
         let cancel = bench.cancel().clone();
-        let withdrawn =
-            bench.step(Step::Withdraw, |plugins| withdrawn(plugins, assignment, &cancel));
-        leave(&mut commands, run, withdrawn);
+        let mut acted = before.map(|mut acted| std::mem::take(&mut *acted)).unwrap_or_default();
+        let withdrawn = bench.step(Step::Withdraw, |plugins| {
+            withdrawn(plugins, assignment, &cancel, &mut acted)
+        });
+        commands.entity(run).insert(acted).remove::<Withdraw>();
+        if let Err(failed) = withdrawn {
+            commands.entity(run).insert(failed);
+        }
     }
 }
 
-/// What the robot did on its way back, in no try yet.
-fn withdrawn(
+/// Opens the hand and takes it back to where the robot waits; what the robot does on its way is
+/// noted in `acted`.
+pub(super) fn withdrawn(
     plugins: &mut Plugins,
     assignment: &Assignment,
     cancel: &Cancel,
-) -> Result<Acted, String> {
-    let (model, mut acted) = (&assignment.robot, Acted::default());
+    acted: &mut Acted,
+) -> Result<(), String> {
+    let model = &assignment.robot;
     let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
     let opening_m = assignment.skill.stages[0].opening_m;
     let at = |pose: Pose| KeyPose {
@@ -82,7 +88,7 @@ fn withdrawn(
                 for step in &program.steps {
                     plugins.robot.execute(&step.action, &mut watch).map_err(|e| e.to_string())?;
                 }
-                return Ok(acted);
+                return Ok(());
             }
             MotionOutcome::Infeasible { reason, .. } => refused = reason,
         }

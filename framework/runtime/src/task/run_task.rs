@@ -125,7 +125,8 @@ fn run_skill(world: &mut World, step: Entity, number: usize, failed_before: bool
         world.entity_mut(run).insert(Withdraw);
     }
     let outcome = carry_out(world, run);
-    let ended = Ended { done: outcome.failed_at.is_none(), reason: outcome.reason.clone() };
+    let done = outcome.failed_at.is_none() && outcome.as_shown != Some(false);
+    let ended = Ended { done, reason: outcome.reason.clone() };
     world.entity_mut(run).insert(Told(outcome));
     ended
 }

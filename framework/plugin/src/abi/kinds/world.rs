@@ -4,11 +4,12 @@ use super::{Remote, anything};
 use crate::abi::callee::{Callee, not_answered};
 use crate::abi::cells::{Put, Reader, Take, fields, malformed, message};
 use crate::abi::methods::Method;
-use crate::{PluginError, World, WorldState};
+use crate::{PluginError, Surface, World, WorldState};
 use seeone_core::{Pose, TriangleMesh};
 use std::sync::Arc;
 
 fields!(WorldState { time_s, frame_s, opening_m, fingers_move, pads_feel_load, load_n });
+fields!(Surface { mesh, is_object });
 
 impl Put for TriangleMesh {
     fn put(&self, to: &mut Vec<u64>) {
@@ -45,7 +46,7 @@ impl<C: Callee> World for Remote<C> {
         self.ask(Method::OpenFingers, &message(&[&opening_m]), &[], anything)
     }
 
-    fn surfaces(&self) -> Result<Vec<TriangleMesh>, PluginError> {
+    fn surfaces(&self) -> Result<Vec<Surface>, PluginError> {
         self.ask(Method::Surfaces, &[], &[], anything)
     }
 }
