@@ -5,6 +5,7 @@
 mod scenes;
 
 use scenes::bending::{SUBSTEPS, convergence};
+use scenes::hanging::{elastic_gains, resolution};
 use scenes::reference::{Dropped, Solver, dropped};
 use std::error::Error;
 use std::fs;
@@ -26,6 +27,24 @@ fn validation() -> io::Result<()> {
     writeln!(out, "|---|---|---|---|---|---|---|")?;
     for check in scenes::ALL.iter().flat_map(|scene| scene()) {
         writeln!(out, "{check}")?;
+    }
+    writeln!(out, "\n| kg/m2 | sag, mm | of its length | edges of 20 mm | of 10 mm |")?;
+    writeln!(out, "|---|---|---|---|---|")?;
+    for row in resolution() {
+        let [sag_m, _] = row.sags_m;
+        let [coarse, fine] = row.deviations.map(|d| 100.0 * d);
+        write!(
+            out,
+            "| {} | {:.2} | {:.2} % ",
+            row.density_kg_m2,
+            1e3 * sag_m,
+            100.0 * sag_m / 0.3
+        )?;
+        writeln!(out, "| {coarse:+.0} % | {fine:+.0} % |")?;
+    }
+    writeln!(out, "\n| substeps | pendulum with elastic energy gains |\n|---|---|")?;
+    for (substeps, gained) in elastic_gains() {
+        writeln!(out, "| {substeps} | {gained:.3} |")?;
     }
     write!(out, "\n| B, N m | length, mm | edges, mm |")?;
     SUBSTEPS.iter().try_for_each(|substeps| write!(out, " {substeps} substeps |"))?;

@@ -3,7 +3,7 @@
 
 use crate::expert::VisorGrasp;
 use crate::hand::Hand;
-use crate::object::Object;
+use crate::object::{Object, Region};
 use crate::surroundings::{Head, Surroundings};
 use crate::world::{FRAME_S, Settings, Settled, World};
 use crate::worn::Worn;
@@ -22,7 +22,7 @@ const ARRIVE_M: f64 = 0.10;
 const NOSE_UP_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 /// ... and is levelled over this last height, metres.
 const LEVEL_M: f64 = 0.01;
-/// A hat without a visor is let go this far above its worn pose, metres.
+/// A hat without a stiff visor is let go this far above its worn pose, metres.
 const PLACED_M: f64 = 0.005;
 /// How far the open hand retracts, metres.
 const RETRACT_M: f64 = 0.18;
@@ -79,7 +79,9 @@ impl PutOn {
 
 /// Carries `object` by its visor to where it is worn on `head`, but for `misplaced`: from
 /// above with the visor raised, level in the end. Then the hand opens and retracts, and the
-/// object comes to rest. A hat without a visor is let go just above instead.
+/// object comes to rest. A hat without a visor is let go just above instead, and so is one
+/// whose brim is soft: it droops in the hand, by more the fewer the substeps, and would not be
+/// let go where it is worn.
 pub fn put_on(
     object: &Object,
     worn: &Worn,
@@ -91,7 +93,8 @@ pub fn put_on(
     let weightless = Settings { gravity: Vector3::zeros(), ..*settings };
     let mut world = World::new(object, &Pose::identity(), surroundings, weightless);
     let way = Way::to(worn, &head, misplaced);
-    match VisorGrasp::of(object, 0.0) {
+    let stiff = object.materials()[Region::Brim.index()].is_rigid();
+    match VisorGrasp::of(object, 0.0).filter(|_| stiff) {
         Some(grasp) => {
             place(&mut world, worn, &way.at(ARRIVE_M, NOSE_UP_RAD));
             let tool = grasp.tool_on(&worn.vertices);

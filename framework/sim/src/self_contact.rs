@@ -7,6 +7,8 @@
 mod facet;
 mod grid;
 mod near;
+mod reach;
+mod recovery;
 mod snapshot;
 mod tangle;
 
@@ -14,6 +16,8 @@ use facet::Facet;
 use grid::Grid;
 use nalgebra::{Point3, Vector3};
 use near::Near;
+use reach::Reach;
+use recovery::Recovery;
 use seeone_core::{Pose, TriangleMesh};
 use snapshot::Snapshot;
 use tangle::Tangle;
@@ -23,10 +27,8 @@ const SEPARATION_M: f64 = 3.0e-3;
 /// Speed at which layers that are too near move apart, m/s: slower than a body pushes out
 /// what they would be moved into.
 const APART_M_S: f64 = 0.1;
-/// Pairs are found this much beyond the separation, metres.
-const MARGIN_M: f64 = 3.0e-3;
-/// Pairs are found within this distance, metres.
-const REACH_M: f64 = SEPARATION_M + MARGIN_M;
+/// A pair is given up when its vertex is this deep on the wrong side, metres.
+const DEEPEST_M: f64 = 2.0 * SEPARATION_M;
 /// What is nearer than this may touch within the next substep, metres.
 const NEAR_M: f64 = SEPARATION_M + 1.0e-3;
 /// What is this near at rest, or this little outside in barycentric coordinates, is no
@@ -37,9 +39,8 @@ const REST_OVERLAP: f64 = 0.3;
 /// the tightest fold are one thickness apart where the fabric is half a turn of that
 /// diameter long.
 const FOLD_M: f64 = 0.5 * std::f64::consts::PI * SEPARATION_M;
-/// Pairs are sorted by how far they may move before they can touch, in rings of this width,
-/// metres.
-const RING_M: f64 = MARGIN_M / RINGS as f64;
+/// Pairs are sorted by how far they may move before they can touch, in so many rings that are
+/// as wide as the margin together.
 const RINGS: usize = 12;
 /// How far outside a triangle, in barycentric coordinates, a vertex is still above it.
 const OVERLAP: f64 = 0.02;
@@ -56,8 +57,8 @@ struct Pair {
 }
 
 impl Pair {
-    fn ring(slack_m: f64) -> u8 {
-        if slack_m > 0.0 { ((slack_m / RING_M) as u8).saturating_add(1) } else { 0 }
+    fn ring(slack_m: f64, width_m: f64) -> u8 {
+        if slack_m > 0.0 { ((slack_m / width_m) as u8).saturating_add(1) } else { 0 }
     }
 }
 
@@ -67,6 +68,7 @@ pub struct SelfContact {
     triangles: Vec<[u32; 3]>,
     /// For each triangle, ascending, the vertices that never collide with it.
     exempt: Vec<Vec<u32>>,
+    reach: Reach,
     near: Near,
     /// Ascending by triangle, then vertex.
     pairs: Vec<Pair>,
@@ -80,6 +82,7 @@ pub struct SelfContact {
     /// Where the vertices were when the pairs were found.
     found_at: Snapshot,
     tangle: Tangle,
+    recovery: Recovery,
     /// For each vertex whether it is about a tangle.
     tangled: Vec<bool>,
 }
@@ -88,11 +91,11 @@ impl SelfContact {
     /// Contact among the triangles of the rest shape `mesh`.
     pub fn new(mesh: &TriangleMesh) -> Self {
         let mut grid = Grid::default();
-        grid.fill(mesh.vertices(), REACH_M);
+        grid.fill(mesh.vertices(), REST_CLEARANCE_M);
         let exempt = |index: usize| {
             let corners = mesh.corners(index);
             let mut near = mesh.triangles()[index].to_vec();
-            grid.for_each_around(&corners, REACH_M, |vertex| {
+            grid.for_each_around(&corners, REST_CLEARANCE_M, |vertex| {
                 let at_rest = Facet::new(&corners).map(|facet| {
                     let above = facet.above(&mesh.vertices()[vertex as usize]);
                     (facet, above)
@@ -107,17 +110,20 @@ impl SelfContact {
             near.sort_unstable();
             near
         };
+        let reach = Reach::of(mesh);
         Self {
             triangles: mesh.triangles().to_vec(),
             exempt: (0..mesh.triangles().len()).map(exempt).collect(),
-            near: Near::default(),
+            reach,
+            near: Near::new(&reach),
             pairs: Vec::new(),
             fresh: Vec::new(),
             order: Vec::new(),
             up_to: [0; RINGS + 1],
             awake: 0,
             found_at: Snapshot::default(),
-            tangle: Tangle::new(mesh),
+            tangle: Tangle::new(mesh, &reach),
+            recovery: Recovery::new(mesh.vertices()),
             tangled: Vec::new(),
         }
     }
@@ -135,7 +141,7 @@ impl SelfContact {
         h: f64,
     ) {
         let moved_m = self.found_at.moved_m(position, frame);
-        if moved_m > MARGIN_M / 2.0 {
+        if moved_m > self.reach.pairs_m / 2.0 {
             self.find(position, frame);
         } else {
             self.wake(position, 2.0 * moved_m);
@@ -144,13 +150,19 @@ impl SelfContact {
             self.set_sides(position);
         }
         self.tangle.undo(&self.triangles, position, inverse_mass);
+        if !self.tangle.piercings().is_empty() {
+            self.recovery.draw(position, inverse_mass, h);
+        }
         self.push(position, previous, inverse_mass, h);
     }
 
     fn find(&mut self, position: &[Point3<f64>], frame: &Pose) {
         self.found_at.take(position, frame);
-        self.near.update(&self.triangles, &self.exempt, REACH_M, position, frame);
+        let margin_m = self.reach.pairs_m;
+        let reach_m = SEPARATION_M + margin_m;
+        self.near.update(&self.triangles, &self.exempt, reach_m, position, frame);
         self.fresh.clear();
+        let ring_m = self.ring_m();
         let Self { triangles, near, pairs, fresh, .. } = self;
         let mut before = pairs.as_slice();
         for (t, triangle) in triangles.iter().enumerate() {
@@ -159,7 +171,7 @@ impl SelfContact {
             let passed = before.iter().take_while(|p| (p.triangle as usize) < t).count();
             before = &before[passed..];
             let [a, b, c] = &corners;
-            let reach = Vector3::repeat(REACH_M);
+            let reach = Vector3::repeat(reach_m);
             let (low, high) = (a.inf(b).inf(c) - reach, a.sup(b).sup(c) + reach);
             for vertex in near.of(t) {
                 let point = &position[*vertex as usize];
@@ -168,7 +180,7 @@ impl SelfContact {
                     continue;
                 }
                 let above = facet.above(point);
-                if above.height.abs() > REACH_M {
+                if above.height.abs() > reach_m {
                     continue;
                 }
                 let mut of_this = before.iter().take_while(|p| p.triangle as usize == t);
@@ -179,14 +191,19 @@ impl SelfContact {
                 };
                 let behind = above.height * side <= 0.0;
                 let slack_m = if behind { 0.0 } else { facet.distance(&above) - NEAR_M };
-                if slack_m < MARGIN_M {
-                    let ring = Pair::ring(slack_m);
+                if slack_m < margin_m {
+                    let ring = Pair::ring(slack_m, ring_m);
                     fresh.push(Pair { triangle: t as u32, vertex: *vertex, side, ring });
                 }
             }
         }
         std::mem::swap(&mut self.pairs, &mut self.fresh);
         self.sort_into_rings();
+    }
+
+    /// Width of a ring, metres.
+    fn ring_m(&self) -> f64 {
+        self.reach.pairs_m / RINGS as f64
     }
 
     /// A counting sort of the pairs.
@@ -213,8 +230,9 @@ impl SelfContact {
     /// Wakes the pairs that may touch after a relative motion of `moved_m` since they were
     /// found. Until then each has been where it may change sides freely.
     fn wake(&mut self, position: &[Point3<f64>], moved_m: f64) {
+        let ring_m = self.ring_m();
         let Self { triangles, pairs, order, up_to, awake, .. } = self;
-        while *awake < RINGS && *awake as f64 * RING_M <= moved_m {
+        while *awake < RINGS && *awake as f64 * ring_m <= moved_m {
             *awake += 1;
             for index in &order[up_to[*awake - 1]..up_to[*awake]] {
                 let pair = &mut pairs[*index as usize];
@@ -229,10 +247,15 @@ impl SelfContact {
     /// Takes the memory of its side from whatever is about a tangle: something there is on
     /// the wrong side, and nothing tells what. What is free again remembers where it is.
     fn set_sides(&mut self, position: &[Point3<f64>]) {
-        let Self { triangles, pairs, tangle, tangled, .. } = self;
+        let Self { triangles, pairs, tangle, recovery, tangled, .. } = self;
         tangled.clear();
         tangled.resize(position.len(), false);
         tangle.vertices(triangles).for_each(|v| tangled[v as usize] = true);
+        if tangle.piercings().is_empty() {
+            recovery.end();
+        } else {
+            recovery.widen(triangles, tangled);
+        }
         for pair in pairs {
             let triangle = triangles[pair.triangle as usize];
             let about = |v: &u32| tangled[*v as usize];
@@ -275,7 +298,7 @@ impl SelfContact {
                 continue;
             }
             let gap = above.height * pair.side;
-            if !(-REACH_M..SEPARATION_M).contains(&gap) {
+            if !(-DEEPEST_M..SEPARATION_M).contains(&gap) {
                 continue;
             }
             let inverse: f64 = inverse_mass[vertex]
@@ -313,20 +336,13 @@ mod tests {
             Point3::new(0.0, 0.02, 0.0),
             Point3::new(0.005, 0.005, -0.001),
         ];
+        let mesh = TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh");
         let mut contact = SelfContact {
-            triangles: vec![[0, 1, 2]],
             exempt: vec![vec![0, 1, 2]],
-            near: Near::default(),
             pairs: vec![Pair { triangle: 0, vertex: 3, side: 1.0, ring: 0 }],
             order: vec![0],
             up_to: [1; RINGS + 1],
-            awake: 0,
-            fresh: Vec::new(),
-            found_at: Snapshot::default(),
-            tangle: Tangle::new(
-                &TriangleMesh::new(points.clone(), vec![[0, 1, 2]]).expect("a mesh"),
-            ),
-            tangled: Vec::new(),
+            ..SelfContact::new(&mesh)
         };
         for _ in 0..100 {
             let mut previous = points.clone();

@@ -9,7 +9,7 @@ mod settle;
 
 pub use fault::{PlacementFault, WorldFault};
 pub use settings::Settings;
-pub use settle::Settled;
+pub use settle::{Rest, Settled};
 
 use crate::contact::pads::Pads;
 use crate::contact::{Bodies, Sample};

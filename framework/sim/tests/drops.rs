@@ -4,7 +4,7 @@
 #[path = "common/drop_study.rs"]
 mod drop_study;
 
-use drop_study::{LIMIT_S, Outcome, study};
+use drop_study::{LIMIT_S, Outcome, one, study};
 use rayon::prelude::*;
 use seeone_sim::Settings;
 use seeone_sim::category::cap::{self, Set};
@@ -33,5 +33,18 @@ fn dropped_caps_come_to_rest_whole() {
         assert_eq!(o.crossings, 0, "{what} is tangled");
         let again = o.shape_again_m.expect("it settles on the head");
         assert!(again < 0.005, "{what}: worn again {again} m from its shape");
+    }
+}
+
+/// A crease that was crumpled about one vertex (5 edges through triangles), one in which two
+/// edges went through and came back again and again, and a fold in which the table pressed two
+/// vertices together, so that they had a speed and stayed where they were.
+#[test]
+fn what_once_stayed_tangled_or_never_rested_rests_whole() {
+    for (name, seed) in [("cap-train-012", 4), ("cap-train-054", 1), ("cap-train-057", 2)] {
+        let cap = cap::named(name).expect("a cap of this name");
+        let outcome = one(&cap, seed, &Settings::default(), None);
+        assert!(outcome.rest_s.is_some(), "{name} drop {seed} never rests");
+        assert_eq!(outcome.crossings, 0, "{name} drop {seed} is tangled");
     }
 }

@@ -1,20 +1,20 @@
 //! Which vertices may soon be near which triangles.
 
 use super::grid::Grid;
+use super::reach::Reach;
 use super::snapshot::Snapshot;
 use nalgebra::Point3;
 use seeone_core::Pose;
 
-/// How much farther than asked for is looked, metres: the lists hold until something has
-/// moved through half of it.
-const MARGIN_M: f64 = 0.012;
-/// Edge of a cell of the search grid, metres: about an edge of the mesh.
-const CELL_M: f64 = 0.01;
-
 /// For each triangle the vertices that may come within some reach of it before the shell
 /// has moved far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Near {
+    /// How much farther than asked for is looked, metres: the lists hold until something has
+    /// moved through half of it.
+    margin_m: f64,
+    /// Edge of a cell of the search grid, metres: about an edge of the mesh.
+    cell_m: f64,
     grid: Grid,
     found_at: Snapshot,
     /// Triangle by triangle, ascending in each.
@@ -24,6 +24,18 @@ pub struct Near {
 }
 
 impl Near {
+    /// Empty lists.
+    pub fn new(reach: &Reach) -> Self {
+        Self {
+            margin_m: reach.near_m,
+            cell_m: reach.cell_m,
+            grid: Grid::default(),
+            found_at: Snapshot::default(),
+            vertices: Vec::new(),
+            starts: Vec::new(),
+        }
+    }
+
     /// Brings the lists up to date: after it they hold every vertex within `reach_m` of each
     /// triangle at `position`, but for those that are `exempt` there. `frame` (shell -> world)
     /// moves about as the whole shell does.
@@ -35,20 +47,20 @@ impl Near {
         position: &[Point3<f64>],
         frame: &Pose,
     ) {
-        if self.found_at.moved_m(position, frame) <= MARGIN_M / 2.0 {
+        if self.found_at.moved_m(position, frame) <= self.margin_m / 2.0 {
             return;
         }
-        let Self { grid, found_at, vertices, starts } = self;
+        let Self { margin_m, cell_m, grid, found_at, vertices, starts } = self;
         found_at.take(position, frame);
-        grid.fill(position, CELL_M);
+        grid.fill(position, *cell_m);
         vertices.clear();
         starts.clear();
         starts.push(0);
         for (triangle, exempt) in triangles.iter().zip(exempt) {
             let corners = triangle.map(|v| position[v as usize]);
             let first = vertices.len();
-            grid.for_each_around(&corners, reach_m + MARGIN_M, |v| {
-                if !exempt.contains(&v) {
+            grid.for_each_around(&corners, reach_m + *margin_m, |v| {
+                if exempt.binary_search(&v).is_err() {
                     vertices.push(v);
                 }
             });

@@ -5,6 +5,7 @@
 //! whatever brought the tangle about, the line shrinks to nothing.
 
 use super::grid::Grid;
+use super::reach::Reach;
 use super::snapshot::Snapshot;
 use crate::shell::topology::{self, Edge};
 use nalgebra::{Point3, Vector3};
@@ -18,11 +19,6 @@ const TANGLED_SUBSTEPS: u32 = 4;
 /// Edges longer than this are compared with every triangle, metres: the grid serves the
 /// many short ones.
 const LONG_M: f64 = 0.02;
-/// Edge of a cell of the search grid, metres.
-const CELL_M: f64 = 0.01;
-/// Edges and triangles this near each other are remembered, metres: until one has moved
-/// through half of it no others can pierce.
-const MARGIN_M: f64 = 4.0e-3;
 /// With more than this share of the vertices moved so far, all is remembered anew; with
 /// fewer, what belongs to them is looked up.
 const MOVED_SHARE: f64 = 0.25;
@@ -48,6 +44,11 @@ pub struct Tangle {
     /// Short edges first.
     edges: Vec<Winged>,
     short: usize,
+    /// Edges and triangles this near each other are remembered, metres: until one has moved
+    /// through half of it no others can pierce.
+    margin_m: f64,
+    /// Edge of a cell of the search grid, metres.
+    cell_m: f64,
     /// The edges in the grid, and where their middles are.
     numbers: Vec<usize>,
     middles: Vec<Point3<f64>>,
@@ -64,7 +65,7 @@ pub struct Tangle {
 
 impl Tangle {
     /// Tangles among the triangles of the rest shape `mesh`.
-    pub fn new(mesh: &TriangleMesh) -> Self {
+    pub fn new(mesh: &TriangleMesh, reach: &Reach) -> Self {
         let winged = |e: &Edge| {
             let wing = |t: usize| topology::opposite(&mesh.triangles()[t], e.ends) as u32;
             let (first, last) = (e.triangles[0], e.triangles[e.triangles.len() - 1]);
@@ -76,6 +77,8 @@ impl Tangle {
         let (long, short): (Vec<_>, Vec<_>) = all.iter().partition(|e| long(e));
         Self {
             short: short.len(),
+            margin_m: reach.tangle_m,
+            cell_m: reach.cell_m,
             edges: short.into_iter().chain(long).map(winged).collect(),
             numbers: Vec::new(),
             middles: Vec::new(),
@@ -115,11 +118,11 @@ impl Tangle {
 
     /// Every edge that pierces one of `triangles`, ascending.
     pub fn search(&mut self, triangles: &[[u32; 3]], position: &[Point3<f64>], frame: &Pose) {
-        let moved = self.found_at.mark_moved(position, frame, MARGIN_M / 2.0, &mut self.moved);
+        let moved = self.found_at.mark_moved(position, frame, self.margin_m / 2.0, &mut self.moved);
         let many = moved as f64 > MOVED_SHARE * position.len() as f64;
         if many {
             self.candidates.clear();
-            self.pair(triangles, position, MARGIN_M, |_| true, |_| true);
+            self.pair(triangles, position, self.margin_m, |_| true, |_| true);
             self.found_at.take(position, frame);
         }
         let known = self.candidates.len();
@@ -153,7 +156,7 @@ impl Tangle {
         of_triangles: impl Fn(&[u32]) -> bool,
         of_edges: impl Fn(&[u32]) -> bool,
     ) {
-        let Self { edges, short, numbers, middles, grid, candidates, .. } = self;
+        let Self { edges, short, cell_m, numbers, middles, grid, candidates, .. } = self;
         let wanted = |range: std::ops::Range<usize>| range.filter(|e| of_edges(&edges[*e].ends));
         let ends = |e: usize| edges[e].ends.map(|v| position[v as usize]);
         middles.clear();
@@ -165,7 +168,7 @@ impl Tangle {
             numbers.push(e);
             reach_m = reach_m.max((b - a).amax() / 2.0 + margin_m);
         }
-        grid.fill(middles, CELL_M);
+        grid.fill(middles, *cell_m);
         let long: Vec<usize> = wanted(*short..edges.len()).collect();
         for (t, triangle) in triangles.iter().enumerate().filter(|(_, t)| of_triangles(&t[..])) {
             let corners = triangle.map(|v| position[v as usize]);

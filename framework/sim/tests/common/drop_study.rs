@@ -4,15 +4,12 @@ use nalgebra::Point3;
 use seeone_core::random::generator;
 use seeone_sim::drop::Drop;
 use seeone_sim::rigid_fit::rigid_fit;
-use seeone_sim::world::FRAME_S;
+use seeone_sim::world::{FRAME_S, Rest};
 use seeone_sim::worn::{template, worn};
 use seeone_sim::{Head, HeadSize, Object, Region, Settings, Surroundings, World};
 
 /// A drop that lasts longer than this counts as never at rest, s.
 pub const LIMIT_S: f64 = 6.0;
-/// Speed below which a cap rests, m/s, and for how many frames it must stay below.
-const REST_M_S: f64 = 0.010;
-const REST_FRAMES: usize = 15;
 
 /// What became of one drop.
 #[derive(Clone, Debug)]
@@ -59,24 +56,22 @@ pub fn study(cap: &Object, drops: u64, settings: &Settings) -> Vec<Outcome> {
     (1..=drops).map(|seed| one(cap, seed, settings, before.as_deref())).collect()
 }
 
-fn one(cap: &Object, seed: u64, settings: &Settings, worn: Option<&[Point3<f64>]>) -> Outcome {
+/// Drops `cap` from one seed; `worn` are its vertices on the head.
+pub fn one(cap: &Object, seed: u64, settings: &Settings, worn: Option<&[Point3<f64>]>) -> Outcome {
     let table = Surroundings { table: true, ..Surroundings::default() };
     let drop = Drop::draw([0.0; 2], &mut generator(seed, cap.name()));
     let mut world = drop.begin(cap, table, *settings);
     let (mut lowest_m, mut shape_rest_s, mut rest_s) = (f64::INFINITY, None, None);
-    let (mut shape_calm, mut calm) = (0, 0);
+    let mut rest = Rest::default();
     for frame in 1..=(LIMIT_S / FRAME_S).round() as usize {
         world.advance();
         lowest_m = world.vertices().iter().map(|p| p.z).fold(lowest_m, f64::min);
-        let steady = world.deformation_rms_speed() < REST_M_S;
-        let still = steady && world.rms_speed() < REST_M_S;
-        shape_calm = if steady { shape_calm + 1 } else { 0 };
-        calm = if still { calm + 1 } else { 0 };
+        rest.look(&world);
         let now = Some(frame as f64 * FRAME_S);
-        if shape_calm >= REST_FRAMES {
+        if rest.of_shape() {
             shape_rest_s = shape_rest_s.or(now);
         }
-        if calm >= REST_FRAMES {
+        if rest.of_all() {
             rest_s = now;
             break;
         }

@@ -13,7 +13,6 @@ pub struct Check {
     /// What a deviation of 1 is, in the unit of the quantity.
     scale: f64,
     bar: f64,
-    held_to: f64,
 }
 
 impl Check {
@@ -26,7 +25,7 @@ impl Check {
         bar: f64,
     ) -> Self {
         let (quantity, scale) = (quantity.into(), expected.abs());
-        Self { quantity, formula, unit, expected, measured, scale, bar, held_to: bar }
+        Self { quantity, formula, unit, expected, measured, scale, bar }
     }
 
     /// `measured` shall be at most `bar`, both in `unit`; zero is right.
@@ -38,13 +37,7 @@ impl Check {
         bar: f64,
     ) -> Self {
         let (quantity, scale, expected) = (quantity.into(), 1.0, 0.0);
-        Self { quantity, formula, unit, expected, measured, scale, bar, held_to: bar }
-    }
-
-    /// The bar is missed today and the table says so; the test holds the line to `held_to`
-    /// instead, so that it gets no worse.
-    pub fn missed(self, held_to: f64) -> Self {
-        Self { held_to, ..self }
+        Self { quantity, formula, unit, expected, measured, scale, bar }
     }
 
     /// The deviation in terms of the bar.
@@ -52,13 +45,8 @@ impl Check {
         (self.measured - self.expected).abs() / self.scale
     }
 
-    /// Whether a test passes.
+    /// Whether the bar is met.
     pub fn holds(&self) -> bool {
-        self.deviation() <= self.held_to
-    }
-
-    /// Whether the bar is met, which may be stricter.
-    pub fn meets_the_bar(&self) -> bool {
         self.deviation() <= self.bar
     }
 }
@@ -67,7 +55,7 @@ impl Check {
 impl Display for Check {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { quantity, formula, unit, expected, measured, bar, .. } = self;
-        let verdict = if self.meets_the_bar() { "met" } else { "**missed**" };
+        let verdict = if self.holds() { "met" } else { "**missed**" };
         let (expected, measured) = (figures(*expected), figures(*measured));
         write!(f, "| {quantity} | {formula} | {expected} | {measured} {unit} | ")?;
         write!(f, "{} | {} | {verdict} |", figures(self.deviation()), figures(*bar))
