@@ -14,9 +14,6 @@ use std::path::Path;
 pub const PAIRS: usize = 200;
 /// Distances kept from everything, metres.
 pub const MARGINS: Margins = Margins { clearance_m: 0.005, carried_m: 0.03 };
-/// Looks at the way between two positions of the shoulder's lift.
-const LOOKS: usize = 200;
-
 /// The shipped arm.
 pub fn ur5() -> RobotModel {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5-ag95.urdf");
@@ -50,37 +47,23 @@ pub fn free_posture(checker: &Checker, rng: &mut Generator) -> Vec<f64> {
     }
 }
 
-/// Free postures whose straight connection is blocked, the goal at the whole turns nearest to the
-/// start, as kinematics give it; and how many more there were between which there is no path at
-/// all.
-pub fn blocked(robot: &RobotModel, checker: &Checker) -> (Vec<[Vec<f64>; 2]>, usize) {
+/// Free postures whose straight connection is blocked; the goal anywhere within half a turn from
+/// zero, or at the whole turns nearest to the start, as kinematics give it.
+pub fn blocked(robot: &RobotModel, checker: &Checker, nearest_turns: bool) -> Vec<[Vec<f64>; 2]> {
     let mut rng = generator(1, "pairs");
-    let (mut pairs, mut shut) = (Vec::with_capacity(PAIRS), 0);
+    let mut pairs = Vec::with_capacity(PAIRS);
     while pairs.len() < PAIRS {
-        let a = free_posture(checker, &mut rng);
-        let b = turned_towards(robot, &free_posture(checker, &mut rng), &a);
-        let on = |share: f64| a.iter().zip(&b).map(|(a, b)| a + share * (b - a)).collect();
-        let mut on_the_way = (1..LOOKS).map(|k| -> Vec<f64> { on(k as f64 / LOOKS as f64) });
-        if !on_the_way.any(|q| checker.contact(&q).is_some()) {
-            continue;
+        let (a, mut b) = (free_posture(checker, &mut rng), free_posture(checker, &mut rng));
+        if nearest_turns {
+            b = turned_towards(robot, &b, &a);
         }
-        if is_shut(checker, a[1], b[1]) {
-            shut += 1;
-        } else {
+        let on = |share: f64| a.iter().zip(&b).map(|(a, b)| a + share * (b - a)).collect();
+        let mut on_the_way = (1..200).map(|k| -> Vec<f64> { on(f64::from(k) / 200.0) });
+        if on_the_way.any(|q| checker.contact(&q).is_some()) {
             pairs.push([a, b]);
         }
     }
-    (pairs, shut)
-}
-
-/// Whether the upper arm would have to pass through the table: how low it reaches is a matter of
-/// the shoulder's lift alone, which takes every value between its two ends on any path.
-fn is_shut(checker: &Checker, from: f64, to: f64) -> bool {
-    let mut between = (0..=LOOKS).map(|k| from + k as f64 / LOOKS as f64 * (to - from));
-    between.any(|lift| {
-        let contact = checker.contact(&[0.0, lift, 0.0, -PI / 2.0, 0.0, 0.0]);
-        contact.is_some_and(|found| found.bodies == ["upper_arm_link", "table"])
-    })
+    pairs
 }
 
 /// The same posture with each joint at the allowed whole turn nearest to `near`.
