@@ -8,8 +8,9 @@
 #![allow(clippy::print_stdout, reason = "a table is what it is for")]
 
 use criterion::Criterion;
-use seeone_collision::Checker;
-use seeone_core::random::generator;
+use nalgebra::{Point3, Vector3};
+use seeone_collision::{Checker, Convex};
+use seeone_core::random::{direction, generator};
 use seeone_motion::{MotionConfig, Planner};
 use seeone_plugin::Clearance;
 use std::hint::black_box;
@@ -22,16 +23,40 @@ use pairs::{MARGINS, PAIRS, blocked, cell, free_posture, ur5};
 
 const RUNS: usize = 3;
 
+/// A hull of 128 points, the size of a cap, in front of the pads.
+fn cap() -> Convex {
+    let mut rng = generator(3, "cap");
+    let points: Vec<Point3<f64>> = (0..128)
+        .map(|_| direction(&mut rng).component_mul(&Vector3::new(0.09, 0.12, 0.06)))
+        .map(|p| Point3::from(p + Vector3::new(0.0, 0.0, 0.10)))
+        .collect();
+    Convex::hull(&points).expect("points")
+}
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let robot = ur5();
     let checker = Checker::new(&robot, MARGINS, &cell(), 0.05);
     let mut rng = generator(2, "postures");
     let postures: Vec<Vec<f64>> = (0..500).map(|_| free_posture(&checker, &mut rng)).collect();
-    let mut next = postures.iter().cycle();
-    criterion.bench_function("a check of the whole arm that finds nothing", |bencher| {
-        bencher.iter(|| checker.contact(black_box(next.next().expect("a cycle"))));
-    });
+    let laden = Checker::new(&robot, MARGINS, &cell(), 0.05).carrying(cap());
+    let free: Vec<Vec<f64>> =
+        postures.iter().filter(|q| laden.contact(q).is_none()).cloned().collect();
+    for (name, checker, postures) in
+        [("with an empty hand", &checker, &postures), ("with a hull in the hand", &laden, &free)]
+    {
+        let time = || {
+            let clock = Instant::now();
+            postures.iter().for_each(|q| assert!(black_box(checker.contact(q)).is_none()));
+            1e6 * clock.elapsed().as_secs_f64() / postures.len() as f64
+        };
+        let best = (0..30).map(|_| time()).fold(f64::INFINITY, f64::min);
+        println!("a check of the whole arm {name}, nothing found: {best:.2} us");
+        let mut next = postures.iter().cycle();
+        criterion.bench_function(&format!("a check {name}"), |bencher| {
+            bencher.iter(|| checker.contact(black_box(next.next().expect("a cycle"))));
+        });
+    }
 
     let planner = Planner::new(MotionConfig::default(), 1).expect("options");
     let pairs = blocked(&robot, &checker, true);
