@@ -113,3 +113,50 @@ fn within_turns(robot: &RobotModel, q: &[f64], near: &[f64]) -> Result<Vec<f64>,
     }
     worst.map_or(Ok(turned), Err)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests")]
+
+    use super::*;
+    use seeone_core::robot::RobotOptions;
+    use std::path::Path;
+
+    /// Joint travel from `near`, least margin from a limit, and manipulability.
+    fn measured(robot: &RobotModel, q: &[f64], near: &[f64]) -> (f64, f64, f64) {
+        let travel = q.iter().zip(near).map(|(q, near)| (q - near).powi(2)).sum::<f64>();
+        let margins = robot.joints().iter().zip(q);
+        let margin = margins.map(|(joint, q)| (q - joint.lower()).min(joint.upper() - q));
+        (travel, margin.fold(f64::INFINITY, f64::min), manipulability(robot, q))
+    }
+
+    #[test]
+    fn the_nearest_solution_goes_first_unless_one_is_clearer_of_limits_or_singularities() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/ur5-ag95.urdf");
+        let robot = RobotModel::from_urdf(&file, &RobotOptions::default()).unwrap();
+        let geometry = ClosedForm::of(&robot).unwrap();
+        let mut rng = generator(3, "ranked");
+        let mut draw = || -> Vec<f64> {
+            robot.joints().iter().map(|j| uniform(&mut rng, j.lower(), j.upper())).collect()
+        };
+        let (mut nearest_first, mut for_limits, mut for_singularities) = (0, 0, 0);
+        for _ in 0..20_000 {
+            let (target, near) = (robot.tool_pose(&draw()), draw());
+            let seeds = closed_form(&geometry, &robot, &target, &near).seeds;
+            let of = |q: &Vec<f64>| measured(&robot, q, &near);
+            let (travel, margin, clear) = of(&seeds[0]);
+            let nearest = seeds.iter().map(of).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            if nearest.0 >= travel - 1e-9 {
+                nearest_first += 1;
+                continue;
+            }
+            // The way is longer by no more than what both costs together can weigh.
+            assert!(travel - nearest.0 < 6.0 * LIMIT_COST + SINGULAR_COST, "{travel} {nearest:?}");
+            assert!(margin > nearest.1 || clear > nearest.2, "{margin} {clear} {nearest:?}");
+            for_limits += usize::from(margin > nearest.1 && clear <= nearest.2);
+            for_singularities += usize::from(clear > nearest.2 && margin <= nearest.1);
+        }
+        assert!(nearest_first > 19_000, "{nearest_first}");
+        assert!(for_limits > 5 && for_singularities > 5, "{for_limits} {for_singularities}");
+    }
+}

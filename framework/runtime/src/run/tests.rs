@@ -54,6 +54,20 @@ fn a_run_goes_from_a_look_to_a_verdict() {
 }
 
 #[test]
+fn the_planner_is_told_of_what_was_seen_where_the_hand_will_have_it() {
+    let cell = FakeCell::new();
+    let finished = finished(&cell, Behaviour::default());
+    let planned = finished.left::<Planned>().unwrap();
+    let seen = finished.left::<Seen>().unwrap().0.cloud.clone();
+    assert!((20..=128).contains(&planned.carried.len()), "{}", planned.carried.len());
+    let there = planned.carried.iter().map(|point| planned.key_poses[0].pose * point);
+    for point in there {
+        let miss = |other: &Point3<f64>| (other - point).norm();
+        assert!(seen.points().iter().map(miss).fold(f64::INFINITY, f64::min) < 1e-9);
+    }
+}
+
+#[test]
 fn the_grasp_and_the_release_are_where_the_demonstration_says() {
     let cell = FakeCell::new();
     let finished = finished(&cell, Behaviour::default());
