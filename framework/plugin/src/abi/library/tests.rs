@@ -122,7 +122,7 @@ fn fault(table: Table, config: &str, seed: u64) -> String {
 fn a_sound_table_is_served() {
     let offers = served(vec![sound()]).expect("sound");
     assert_eq!(offers[0].id.to_string(), "alignment \"fake\" 1.2.3");
-    assert_eq!(offers[0].abi, (2, 0));
+    assert_eq!(offers[0].abi, (2, 1));
 }
 
 #[test]
@@ -145,8 +145,8 @@ fn a_shorter_table_is_refused_whatever_its_minor() {
 #[test]
 fn tables_of_others_are_refused() {
     assert!(refusal(|t| t.header.magic ^= 1).starts_with("error[L007]"));
-    assert!(refusal(|t| t.header.abi_major += 1).contains("has ABI 3.0, this host 2.0"));
-    assert!(refusal(|t| t.header.abi_major -= 1).contains("has ABI 1.0, this host 2.0"));
+    assert!(refusal(|t| t.header.abi_major += 1).contains("has ABI 3.1, this host 2.1"));
+    assert!(refusal(|t| t.header.abi_major -= 1).contains("has ABI 1.1, this host 2.1"));
     assert!(refusal(|t| t.header.kind = 99).contains("unknown kind 99"));
     assert!(refusal(|t| t.create = None).contains("the function \"create\" of the table"));
     assert!(refusal(|t| t.call = None).contains("the function \"call\" of the table"));
