@@ -255,8 +255,11 @@ impl Reader<'_> {
                 used.targets.insert(frame.clone(), target);
             }
         }
-        let steps = steps.into_iter().map(|(name, used)| {
-            TaskStep { name, work: Work::Skill(Box::new(used)), tries, objects: Vec::new() }
+        let steps = steps.into_iter().map(|(name, used)| TaskStep {
+            name,
+            work: Work::Skill(Box::new(used)),
+            tries,
+            objects: Vec::new(),
         });
         Some(Work::Visible(steps.collect()))
     }
