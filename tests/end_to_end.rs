@@ -219,45 +219,6 @@ fn every_other_plugin_reaches_an_honest_outcome() {
 }
 
 #[test]
-fn a_task_looks_again_and_tells_its_steps_as_a_tree() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let out = folder.path().display().to_string();
-    let words = ["run", "skills/tasks/dress.toml", "--json", "--seed", SEED, "--out", &out];
-    let call = seeone(words);
-    assert!(matches!(call.status, Some(0 | 1)), "{:?} {}", call.status, call.stderr);
-    let told: Value = serde_json::from_str(&call.stdout).expect("one JSON object");
-    assert_eq!(told["success"] == true, call.status == Some(0), "{told}");
-    assert_eq!(
-        (&told["task"], &told["tree"]["composition"]),
-        (&"dress".into(), &"sequence".into())
-    );
-    let wear = &told["tree"]["steps"][0];
-    assert_eq!(wear["name"], "wear");
-    assert!(wear["seconds"].as_f64().is_some_and(|seconds| seconds > 0.0), "{wear}");
-    let runs = wear["runs"].as_array().expect("runs");
-    assert_eq!(Some(runs.len() as u64), wear["tries"].as_u64());
-    // All but the last failed, and the last says how the step ended.
-    let failed = |run: &Value| !run["failed_at"].is_null();
-    let (last, before) = runs.split_last().expect("a run");
-    assert!(before.iter().all(failed), "{told}");
-    assert_eq!(failed(last), wear["state"] == "failed");
-    assert!(!failed(last) || runs.len() == 3, "{told}");
-    for (index, run) in runs.iter().enumerate() {
-        let first = if index == 0 { "require" } else { "withdraw" };
-        assert_eq!(run["stages"][0]["name"], first, "{run}");
-        read(Path::new(run["recording"].as_str().expect("a recording")))
-            .expect("a sound recording");
-    }
-    for line in ["dress", "wear"] {
-        assert!(
-            call.stderr.lines().filter(|told| told.contains(line)).count() >= 2,
-            "{}",
-            call.stderr
-        );
-    }
-}
-
-#[test]
 fn one_word_swaps_the_robot() {
     for robot in ["ur5e-ag95-sim", "panda-ag95-sim"] {
         let file = format!("robots/{robot}.toml");

@@ -191,6 +191,13 @@ fn a_run_survives_a_plugin_that_misbehaves_and_says_which() {
         let why = outcome["reason"].as_str().expect("a reason");
         let whose = format!("{kind} plugin \"misbehaving\" in \"{entry}\": {reason}");
         assert!(why.contains(&whose), "{kind} {deed}: {why}");
+        // The robot is asked to stop, and one that does not answer is told of.
+        let stages = outcome["stages"].as_array().expect("stages");
+        let deaf = stages.iter().find(|stage| stage["name"] == "stop");
+        let deaf = deaf.map(|stage| stage["reason"].as_str().expect("a reason"));
+        assert!(deaf.is_none_or(|why| why.contains("may be moving")), "{deaf:?}");
+        let answers = kind != "robot" || ["nan", "nothing"].contains(&deed);
+        assert_eq!(deaf.is_none(), answers, "{kind} {deed}: {outcome}");
         let recording = read(&recording).expect("a whole recording");
         let verdict = &recording.of(Channel::Verdict).last().expect("a verdict").body;
         assert_eq!(verdict["success"], false, "{kind} {deed}");
@@ -227,6 +234,25 @@ fn a_library_is_checked_in_a_process_of_its_own() {
         flipped[at] ^= 0x10;
         damaged(&flipped, format!("byte {at} flipped"));
     }
+}
+
+#[test]
+fn check_knows_the_plugins_of_libraries_that_it_is_given() {
+    let (_folder, libraries) = built(&[("seeone-plugin", "misbehaving")]);
+    let (bench, library) = (Bench::new(), &libraries[0]);
+    bench.set_line(SKILL, "transfer", "transfer = \"misbehaving\"");
+    let file = bench.arg(SKILL);
+    let unknown = seeone(["check", &file]);
+    assert_eq!(unknown.status, Some(1), "{}", unknown.stderr);
+    assert!(unknown.stderr.contains("error[S024]"), "{}", unknown.stderr);
+    let untrusted = seeone(["check", &file, "--plugin", library]);
+    assert_eq!(untrusted.status, Some(2), "{}", untrusted.stderr);
+    trust(library);
+    let known = seeone(["check", &file, "--plugin", library]);
+    assert_eq!(known.status, Some(0), "{}", known.stderr);
+    bench.set_line(SKILL, "transfer", "transfer = \"misbehavin\"");
+    let close = seeone(["check", &file, "--plugin", library]);
+    assert!(close.stderr.contains("did you mean \"misbehaving\"?"), "{}", close.stderr);
 }
 
 #[test]

@@ -41,7 +41,11 @@ impl SimulatedCell {
         let surroundings = Surroundings {
             table: true,
             head,
-            hooks: scene.hooks().iter().map(|hook| Hook { pose: hook.pose, peg: hook.peg }).collect(),
+            hooks: scene
+                .hooks()
+                .iter()
+                .map(|hook| Hook { pose: hook.pose, peg: hook.peg })
+                .collect(),
             frictions: Frictions {
                 table: scene.table.friction,
                 head: scene.head().map_or(standard.head, |head| head.friction),

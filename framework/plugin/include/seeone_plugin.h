@@ -30,9 +30,10 @@
 #define SEEONE_ABI_MAJOR 3
 
 /**
- * May differ: functions were appended to the end of a table, whose `size` tells.
+ * May differ: functions were appended to the end of a table, whose `size` tells, or methods and
+ * codes to those that there were. 1: `stop`, and a watcher that asks for an end.
  */
-#define SEEONE_ABI_MINOR 0
+#define SEEONE_ABI_MINOR 1
 
 /**
  * `alignment`.
@@ -151,7 +152,8 @@ enum SeeoneMethod
    */
   SeeoneMethod_Proximities = 14,
   /**
-   * A watcher that is lent: seconds, joints, opening `->` nothing.
+   * A watcher that is lent: seconds, joints, opening `->` nothing. Any code but `OK` asks the
+   * robot to stop and to end the action with that code.
    */
   SeeoneMethod_Watch = 15,
   /**
@@ -179,6 +181,10 @@ enum SeeoneMethod
    * The world: nothing `->` list of meshes: points, list of triangles (three numbers each).
    */
   SeeoneMethod_Surfaces = 21,
+  /**
+   * Robot: nothing `->` nothing. It stands still where it is.
+   */
+  SeeoneMethod_Stop = 22,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -268,6 +274,10 @@ typedef int32_t SeeoneStatus;
  * A fault inside the plugin, a caught panic among them.
  */
 #define SeeoneStatus_INTERNAL 4
+/**
+ * The caller asked for an end before the work was done, and there was one.
+ */
+#define SeeoneStatus_CANCELLED 5
 
 /**
  * Borrowed elements in a row; `data` may be anything when `len` is zero.
@@ -392,7 +402,7 @@ typedef const struct SeeoneHeader *(*SeeoneEntry)(uint32_t index);
 /**
  * Every method, in order.
  */
-#define SeeoneMethod_ALL { SeeoneMethod_Observe, SeeoneMethod_Perceive, SeeoneMethod_Encode, SeeoneMethod_Features, SeeoneMethod_Winding, SeeoneMethod_Forget, SeeoneMethod_Align, SeeoneMethod_Transfer, SeeoneMethod_Solve, SeeoneMethod_Plan, SeeoneMethod_State, SeeoneMethod_Execute, SeeoneMethod_Contact, SeeoneMethod_Proximities, SeeoneMethod_Watch, SeeoneMethod_WorldState, SeeoneMethod_PlaceHand, SeeoneMethod_Advance, SeeoneMethod_CloseFingers, SeeoneMethod_OpenFingers, SeeoneMethod_Surfaces, }
+#define SeeoneMethod_ALL { SeeoneMethod_Observe, SeeoneMethod_Perceive, SeeoneMethod_Encode, SeeoneMethod_Features, SeeoneMethod_Winding, SeeoneMethod_Forget, SeeoneMethod_Align, SeeoneMethod_Transfer, SeeoneMethod_Solve, SeeoneMethod_Plan, SeeoneMethod_State, SeeoneMethod_Execute, SeeoneMethod_Contact, SeeoneMethod_Proximities, SeeoneMethod_Watch, SeeoneMethod_WorldState, SeeoneMethod_PlaceHand, SeeoneMethod_Advance, SeeoneMethod_CloseFingers, SeeoneMethod_OpenFingers, SeeoneMethod_Surfaces, SeeoneMethod_Stop, }
 
 #endif  /* SEEONE_PLUGIN_H */
 

@@ -64,7 +64,8 @@ impl Cell {
         settings: Settings,
     ) -> Result<Self, String> {
         let members = vec![dropped(object, drop, surroundings, settings)];
-        let cell = Self { members, taken: 0, opening_m: OPENING_M, fingers_move: false, met: false };
+        let cell =
+            Self { members, taken: 0, opening_m: OPENING_M, fingers_move: false, met: false };
         cell.whole().map(|()| cell)
     }
 
@@ -287,12 +288,7 @@ impl Cell {
 }
 
 /// An object that was let go as `drop` says and has come to rest, or has had six seconds to.
-fn dropped(
-    object: Object,
-    drop: &Drop,
-    surroundings: Surroundings,
-    settings: Settings,
-) -> Member {
+fn dropped(object: Object, drop: &Drop, surroundings: Surroundings, settings: Settings) -> Member {
     let mut world = drop.begin(&object, surroundings, settings);
     world.settle(SETTLE_LIMIT_S);
     Member::new(object, world)

@@ -13,7 +13,7 @@ use serde_json::json;
 /// Checks every file and tells every fault.
 ///
 /// # Errors
-/// Every fault of the robot or the scene that is checked against; when standard output has gone.
+/// Every fault of the robot or the scene that is checked against; a library that is not trusted; when standard output has gone.
 pub fn run(args: &CheckArgs) -> Result<Ending> {
     let against = against(args)?;
     let mut faults: Vec<Diagnostic> = Vec::new();
@@ -34,7 +34,8 @@ pub fn run(args: &CheckArgs) -> Result<Ending> {
 }
 
 fn against(args: &CheckArgs) -> Result<Against> {
-    let registry = builtin::registry();
+    let mut registry = builtin::registry();
+    builtin::load(&mut registry, &args.libraries)?;
     let known = registry.known();
     let scene = args.scene.as_ref().map(|path| Scene::read(path, &known).map_err(Faults));
     let file = args.robot.as_ref().map(|path| RobotFile::read(path, &known).map_err(Faults));

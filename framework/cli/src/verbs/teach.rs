@@ -107,6 +107,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         model: &robot,
         obstacles: &obstacles,
         carried: &carried,
+        stages: &lesson.stages,
         key_poses: &key_poses,
         program: &program,
         acted: &mut acted,
@@ -224,6 +225,7 @@ fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
         retreat_m: 0.0,
         lift_m: 0.0,
         turn_about_closing_deg: 0.0,
+        onward: false,
     }
 }
 

@@ -12,8 +12,8 @@ pub const MAGIC: u64 = 0x0000_454E_4F45_4553;
 pub const ABI_MAJOR: u32 = 3;
 
 /// May differ: functions were appended to the end of a table, whose `size` tells, or methods and
-/// codes to those that there were. 1: `stop`, and a watcher that asks for an end.
-pub const ABI_MINOR: u32 = 1;
+/// codes to those that there were.
+pub const ABI_MINOR: u32 = 0;
 
 /// The one symbol that a library exports, of type [`Entry`].
 pub const ENTRY: &[u8] = b"seeone_plugin";

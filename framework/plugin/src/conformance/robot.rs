@@ -45,7 +45,8 @@ fn stops(model: &RobotModel, robot: &mut dyn Robot) -> Result<(), Violation> {
     hold(rule, seen == 10, || format!("{seen} samples, the end asked for at the tenth"))?;
     let rule = "a robot that was interrupted is on its way, and not at its end";
     let interrupted = answered(rule, robot.state())?.joints;
-    let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let off =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let (gone, left) = (off(&interrupted, &start), off(&interrupted, &there.positions[199]));
     hold(rule, gone < 0.05 && left > 0.05, || format!("{gone:.3} rad gone, {left:.3} left"))?;
 

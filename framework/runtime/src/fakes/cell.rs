@@ -313,6 +313,7 @@ fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
         retreat_m: if first { 0.0 } else { 0.15 },
         lift_m: if first { 0.25 } else { 0.0 },
         turn_about_closing_deg: 90.0,
+        onward: false,
     }
 }
 

@@ -40,6 +40,9 @@ pub struct Stage {
     /// By how much the grasp may be turned about the tool's closing axis without spoiling
     /// it, degrees either way; zero for not at all.
     pub turn_about_closing_deg: f64,
+    /// Whether the pose is reached by the motion that was shown from the pose before it, from wherever
+    /// the hand then is: where contact has ended a line early, the two are not the same.
+    pub onward: bool,
 }
 
 /// What was seen when the skill was shown.

@@ -93,6 +93,11 @@ struct RawStage {
     /// is not said.
     #[schemars(range(min = 0.0, max = 180.0))]
     turn_about_closing_deg: Option<Spanned<f64>>,
+    /// Where contact has ended a line before this stage: whether the hand then makes the motion that
+    /// was shown from the pose before to this one, instead of going to the pose itself; `false` when
+    /// it is not said.
+    #[serde(default)]
+    onward: bool,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -221,6 +226,7 @@ fn stage(resolver: &mut Resolver, raw: &RawStage, demonstration: &Demonstration)
             Stage::TURN_ABOUT_CLOSING_DEG,
             0.0..=180.0,
         ),
+        onward: raw.onward,
     }
 }
 

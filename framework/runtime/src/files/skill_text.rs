@@ -95,6 +95,9 @@ fn stage_text(text: &mut String, stage: &Stage) {
     line(text, "retreat_m", number(stage.retreat_m));
     line(text, "lift_m", number(stage.lift_m));
     line(text, "turn_about_closing_deg", number(stage.turn_about_closing_deg));
+    if stage.onward {
+        line(text, "onward", "true");
+    }
 }
 
 fn line(text: &mut String, key: &str, value: impl AsRef<str>) {

@@ -57,7 +57,7 @@ struct RawStep {
     for_each_object: Option<Spanned<Vec<Spanned<String>>>>,
     /// A skill is taken with one object in sight after another, until none is: for a frame of the
     /// skill the scene's frames that it stands for in turn.
-    for_each_visible: Option<Spanned<BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>>>,
+    for_each_visible: Option<Spanned<Turns>>,
     /// What must be true before a skill: `object-visible`, `hand-empty`.
     #[serde(default)]
     require: Vec<Spanned<String>>,
@@ -68,6 +68,9 @@ struct RawStep {
     #[serde(default)]
     methods: BTreeMap<Spanned<String>, Spanned<String>>,
 }
+
+/// For a frame of a skill the scene's frames that it stands for, one after another.
+type Turns = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
 
 /// The tries a step may ask for.
 const TRIES: RangeInclusive<u32> = 1..=20;
@@ -255,8 +258,11 @@ impl Reader<'_> {
                 used.targets.insert(frame.clone(), target);
             }
         }
-        let steps = steps.into_iter().map(|(name, used)| {
-            TaskStep { name, work: Work::Skill(Box::new(used)), tries, objects: Vec::new() }
+        let steps = steps.into_iter().map(|(name, used)| TaskStep {
+            name,
+            work: Work::Skill(Box::new(used)),
+            tries,
+            objects: Vec::new(),
         });
         Some(Work::Visible(steps.collect()))
     }

@@ -71,6 +71,7 @@ pub(super) fn act(
                 model: &assignment.robot,
                 obstacles,
                 carried,
+                stages: &assignment.skill.stages,
                 key_poses,
                 program,
                 acted: &mut acted,

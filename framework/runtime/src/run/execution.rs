@@ -10,6 +10,8 @@ use super::cancel::Cancel;
 use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
 use nalgebra::Point3;
+use crate::files::Stage;
+use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
@@ -47,7 +49,9 @@ pub struct Execution<'a> {
     pub obstacles: &'a [Obstacle],
     /// Points of what it takes, in the closed hand's tool frame, metres.
     pub carried: &'a [Point3<f64>],
-    /// The key poses, at least one, and ...
+    /// The skill's stages, whose ...
+    pub stages: &'a [Stage],
+    /// ... key poses these are, at least one, and ...
     pub key_poses: &'a [KeyPose],
     /// ... the program through them.
     pub program: &'a Program,
@@ -154,6 +158,7 @@ impl Execution<'_> {
         let ahead = self.key_poses.iter().skip_while(|key| key.stage != step.stage);
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
         let key = ahead.first().ok_or("the program has a stage without a key pose")?.clone();
+        self.go_onward(&here, &mut ahead);
         let short_m = difference(&here, &key.pose).0;
         let (start, carried, obstacles) = (&state.joints, self.carried, self.obstacles);
         let mut refused = String::new();
@@ -174,6 +179,22 @@ impl Execution<'_> {
             }
         }
         Err(format!("felt contact, and there is no way on from there: {refused}"))
+    }
+
+    /// The hand is at `here` instead of at the first of the key poses `ahead`: those that are
+    /// reached by the motion that was shown are moved with it.
+    fn go_onward(&self, here: &Pose, ahead: &mut [KeyPose]) {
+        let onward = |key: &KeyPose| {
+            self.stages.iter().any(|stage| stage.name == key.stage && stage.onward)
+        };
+        let (mut before, mut reached) = (ahead[0].pose, *here);
+        for key in &mut ahead[1..] {
+            let shown = key.pose;
+            if onward(key) {
+                key.pose = shown * before.inverse() * reached;
+            }
+            (before, reached) = (shown, key.pose);
+        }
     }
 
     /// Opens the fingers and goes back the way the hand came.

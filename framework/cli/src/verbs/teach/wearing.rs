@@ -23,15 +23,19 @@ struct Over {
 /// It comes from behind with its nose up, so that the back of its hem passes the head first, ...
 const ARRIVE: Over = Over { back_m: 0.012, height_m: 0.162, nose_up_deg: 12.0 };
 /// ... sinks, ...
-const LOWER: Over = Over { back_m: 0.012, height_m: 0.092, nose_up_deg: 6.0 };
-/// ... and is let go here at the latest: how deep a crown sits differs by 12 mm (standard
-/// deviation) from cap to cap, so the hand feels for the head. The nose is pulled down on the
-/// way: a hem that keeps its length stays where it was drawn to, and let go level, caps sit
-/// back on the head.
-const LOWEST: Over = Over { back_m: 0.0, height_m: -0.013, nose_up_deg: -8.0 };
-/// It is let go as soon as the head bears so much, newtons: pulled on as a person would, and
-/// enough for an arm's force estimate to tell from noise.
-const CONTACT_N: f64 = 20.0;
+const LOWER: Over = Over { back_m: 0.012, height_m: 0.092, nose_up_deg: 8.0 };
+/// ... down to here at the latest: how deep a crown sits differs by 12 mm (standard deviation)
+/// from cap to cap, so the hand feels for the head, ...
+const LOWEST: Over = Over { back_m: 0.006, height_m: -0.013, nose_up_deg: 8.0 };
+/// ... which bears it from here on, newtons; an arm's force estimate tells so much from noise.
+const TOUCH_N: f64 = 10.0;
+/// Then it is turned about the middle of the head, which a cap slides around with the least
+/// resistance, until its nose is up by so much, degrees; ...
+const LEVEL_DEG: f64 = -2.0;
+/// ... not against more than this, newtons.
+const MOST_N: f64 = 40.0;
+/// It is drawn down once more, metres, until the head bears [`TOUCH_N`] more, and let go.
+const DRAW_M: f64 = 0.06;
 
 /// The expert's key poses at the head.
 pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
@@ -44,19 +48,27 @@ pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
         let shift = Translation3::new(0.0, -place.back_m, place.height_m);
         head * Pose::from_parts(shift, turn) * head.inverse() * worn
     };
-    let on_head = |name, place| stage(name, RelativeTo::Frame("head".to_owned()), over(place));
+    let at_head = |name, pose| stage(name, RelativeTo::Frame("head".to_owned()), pose);
+    let on_head = |name, place| at_head(name, over(place));
+    let turn = (LEVEL_DEG - LOWEST.nose_up_deg).to_radians();
+    let turn = Pose::rotation(Vector3::x() * turn);
+    let level = head * turn * head.inverse() * over(LOWEST);
+    let drawn = Translation3::new(0.0, 0.0, -DRAW_M) * level;
     Ok(Lesson {
         summary: "Pick a cap from the table and put it on a head.",
         frames: BTreeMap::from([("head".to_owned(), head)]),
         stages: vec![
             pick(grasp.tool_on(now.vertices())),
             on_head("middle", ARRIVE),
-            on_head("lower", LOWER),
+            Stage { until_contact_n: Some(TOUCH_N), ..on_head("lower", LOWER) },
+            Stage { until_contact_n: Some(TOUCH_N), ..on_head("feel", LOWEST) },
+            Stage { until_contact_n: Some(MOST_N), onward: true, ..at_head("level", level) },
             Stage {
-                until_contact_n: Some(CONTACT_N),
+                until_contact_n: Some(TOUCH_N),
+                onward: true,
                 gripper: Some(GripperCommand::Open { opening_m: 0.04 }),
                 retreat_m: 0.15,
-                ..on_head("release", LOWEST)
+                ..at_head("release", drawn)
             },
         ],
         measure: Measure::Worn { tolerance_d: TOLERANCE_D },

@@ -37,9 +37,11 @@ fn an_empty_table_is_done() {
     let fake = FakeCell::new();
     let steps = [skill(&fake, "first"), on_three_hooks(&fake, 1).remove(0)];
     let empty = carried(fake, steps.to_vec(), &[LAST]);
-    assert!(empty.tree().contains(
-        "hang:done(hang-left:skipped hang-middle:skipped hang-right:skipped)"
-    ));
+    assert!(
+        empty
+            .tree()
+            .contains("hang:done(hang-left:skipped hang-middle:skipped hang-right:skipped)")
+    );
     assert_eq!(empty.outcome.success, Some(true));
     assert_eq!(empty.outcome.reason, "nothing of the object is in sight");
 }
