@@ -8,7 +8,7 @@ mod support;
 use seeone_runtime::record::{Channel, Recording, read};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use support::{Call, root, seeone};
 use tempfile::TempDir;

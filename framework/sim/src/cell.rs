@@ -293,3 +293,44 @@ fn dropped(object: Object, drop: &Drop, surroundings: Surroundings, settings: Se
     world.settle(SETTLE_LIMIT_S);
     Member::new(object, world)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::category::cap;
+    use seeone_core::random::generator;
+
+    fn a_cap() -> Object {
+        cap::named("cap-train-003").expect("a cap")
+    }
+
+    fn lying() -> Cell {
+        let table = Surroundings { table: true, ..Surroundings::default() };
+        let drop = Drop::draw([0.4, 0.0], &mut generator(1, "drop"));
+        Cell::after_drop(a_cap(), &drop, table, Settings::default()).expect("a cell")
+    }
+
+    #[test]
+    fn objects_lie_apart_and_that_two_met_is_remembered() {
+        let (mut cell, settings) = (lying(), Settings::default());
+        let mut rng = generator(1, "beside");
+        cell.drop_beside(&a_cap(), [0.4, 0.5], settings, &mut rng).expect("room");
+        assert_eq!(cell.objects().count(), 2);
+        assert_eq!(cell.surfaces().len(), 3);
+        assert!(!cell.members[0].is_near(&cell.members[1], APART_M) && !cell.met());
+        let full = cell.drop_beside(&a_cap(), [0.4, 0.5], settings, &mut rng);
+        assert!(full.is_err_and(|why| why.contains("no room")));
+        let there = cell.members[0].world.vertices().to_vec();
+        cell.members[1].world.set_vertices(&there).expect("as many vertices");
+        cell.note_hung(false);
+        assert!(cell.met());
+    }
+
+    #[test]
+    fn one_that_hung_and_hangs_no_more_has_fallen() {
+        let mut cell = lying();
+        assert!(cell.fallen().is_empty());
+        cell.note_hung(true);
+        assert_eq!(cell.fallen(), ["cap-train-003"]);
+    }
+}
