@@ -146,7 +146,9 @@ impl Nst {
             (Ok(as_it_is), Ok(lowered)) if as_it_is.certainty() < lowered.certainty() => {
                 Ok(Perceived { alignment: lowered.alignment * down, ..lowered })
             }
-            (Err(_), Ok(lowered)) => Ok(Perceived { alignment: lowered.alignment * down, ..lowered }),
+            (Err(_), Ok(lowered)) => {
+                Ok(Perceived { alignment: lowered.alignment * down, ..lowered })
+            }
             (as_it_is, _) => as_it_is,
         }
     }

@@ -90,9 +90,7 @@ fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> 
         first_seed: args.first_seed,
         tries: args.cell.tries,
         grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
-        grasped_at_first_try: Rate::of(
-            attempts.iter().map(|o| o.grasped_at_first == Some(true)),
-        ),
+        grasped_at_first_try: Rate::of(attempts.iter().map(|o| o.grasped_at_first == Some(true))),
         placed: Placed::of(measure, &attempts),
         failures,
         attempts,

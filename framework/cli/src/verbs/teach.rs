@@ -16,7 +16,9 @@ use seeone_core::{Cloud, Diagnostic, Pose};
 use seeone_plugin::{
     GripperCommand, Judge, KeyPose, Kind, Measure, MotionOutcome, MotionTask, Program, Setup,
 };
-use seeone_runtime::files::{Demonstration, RelativeTo, RobotFile, Scene, ShownResult, Skill, Stage, is_name};
+use seeone_runtime::files::{
+    Demonstration, RelativeTo, RobotFile, Scene, ShownResult, Skill, Stage, is_name,
+};
 use seeone_runtime::plugins::configuration;
 use seeone_runtime::run::{Acted, Cancel, Execution, Hull};
 use seeone_sim::cell::Cell;
@@ -127,7 +129,8 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         return Ok(Ending::Failure);
     }
     // Looked at as a run will: the hand is back where it waits.
-    let home = KeyPose { stage: "look".into(), pose: robot.tool_pose(robot.home()), ..key_pose(last) };
+    let home =
+        KeyPose { stage: "look".into(), pose: robot.tool_pose(robot.home()), ..key_pose(last) };
     let start = arm.state()?.joints;
     let look = MotionTask {
         start: &start,
@@ -136,7 +139,9 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         key_poses: &[KeyPose { gripper: None, retreat_m: 0.0, until_contact_n: None, ..home }],
         obstacles: &obstacles,
     };
-    if let MotionOutcome::Planned { program, .. } = motion.plan(&robot, kinematics.as_ref(), &look)? {
+    if let MotionOutcome::Planned { program, .. } =
+        motion.plan(&robot, kinematics.as_ref(), &look)?
+    {
         for step in &program.steps {
             arm.execute(&step.action, &mut |_| Ok(()))?;
         }

@@ -5,8 +5,8 @@ use super::exactly::Exactly;
 use super::measure::{RawSuccess, measure};
 use super::pose::RawPose;
 use super::resolver::Resolver;
-use super::source::Source;
 use super::shown_result::{RawResult, shown_result};
+use super::source::Source;
 use super::spanned::Spanned;
 use super::{Demonstration, KnownMethods, RelativeTo, Skill, Stage};
 use nalgebra::Point3;
@@ -140,10 +140,7 @@ impl Skill {
             summary: raw.summary,
             stages: stages(&mut resolver, &raw.stage, &demonstration),
             methods: methods(&mut resolver, &raw.methods, known),
-            result: raw
-                .result
-                .as_ref()
-                .map(|raw| shown_result(&mut resolver, raw, &demonstration)),
+            result: raw.result.as_ref().map(|raw| shown_result(&mut resolver, raw, &demonstration)),
             measure: measure(&mut resolver, &raw.success, &demonstration),
             demonstration,
         };

@@ -83,11 +83,7 @@ pub(super) fn check(
 }
 
 /// Looks and compares.
-fn off(
-    plugins: &mut Plugins,
-    assignment: &Assignment,
-    shown: &ShownResult,
-) -> Result<Off, String> {
+fn off(plugins: &mut Plugins, assignment: &Assignment, shown: &ShownResult) -> Result<Off, String> {
     let cloud = assignment.result.clone().ok_or("the skill's result was not read")?;
     let camera_position = assignment.skill.demonstration.camera_position;
     let then = Observation { depth: None, cloud, camera_position };
@@ -120,7 +116,8 @@ mod tests {
             Similarity::from_parts(Translation3::from(to), turn, 0.27)
         };
         let level = UnitQuaternion::identity();
-        let about = |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
+        let about =
+            |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
         let shown = at(0.0, level);
         let tilted = Off::between(&shown, &at(0.02, about(Vector3::x_axis(), 9.0)));
         assert!((tilted.metres - 0.02).abs() < 1e-9 && (tilted.degrees - 9.0).abs() < 1e-6);

@@ -9,8 +9,8 @@ use super::act::{Acted, Snapshot};
 use super::cancel::Cancel;
 use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
-use nalgebra::Point3;
 use crate::files::Stage;
+use nalgebra::Point3;
 use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
@@ -105,9 +105,9 @@ impl Execution<'_> {
                     past.carrying = matches!(command, GripperCommand::Close { .. });
                 }
                 Action::MoveUntilContact { .. } if felt.contact => {
-                    let (rest, short_m) = self.replan(&step, past.carrying).map_err(failed)?;
-                    steps = rest;
                     let pushed_out = past.carrying && !felt.holding;
+                    let (rest, short_m) = self.replan(&step, &past, pushed_out).map_err(failed)?;
+                    steps = rest;
                     past.carrying = felt.holding;
                     past.moves = None;
                     let what = if pushed_out { "pushed out of the hand" } else { "contact" };
@@ -152,22 +152,35 @@ impl Execution<'_> {
 
     /// After contact in `step`'s line: the way on from where the arm now is, where the
     /// gripper does what it was to do at the key pose; and how far that is from here, metres.
-    fn replan(&mut self, step: &Step, holding: bool) -> Result<(VecDeque<Step>, f64), String> {
+    /// Where the object was `pushed_out` of the hand it is where it was to be put: the hand opens
+    /// here as it was to open later, and goes.
+    fn replan(
+        &mut self,
+        step: &Step,
+        past: &Past,
+        pushed_out: bool,
+    ) -> Result<(VecDeque<Step>, f64), String> {
         let state = self.robot.state().map_err(|e| e.to_string())?;
         let here = self.model.tool_pose(&state.joints);
         let ahead = self.key_poses.iter().skip_while(|key| key.stage != step.stage);
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
-        let key = ahead.first().ok_or("the program has a stage without a key pose")?.clone();
-        self.go_onward(&here, &mut ahead);
+        let key = ahead.first().ok_or("the program has a stage without a key pose")?;
         let short_m = difference(&here, &key.pose).0;
-        let (start, carried, obstacles) = (&state.joints, self.carried, self.obstacles);
+        self.go_onward(&here, &mut ahead);
+        let opens = |key: &KeyPose| matches!(key.gripper, Some(GripperCommand::Open { .. }));
+        if pushed_out && let Some(opening) = ahead.iter().position(opens) {
+            ahead.drain(..opening);
+        }
+        ahead[0] =
+            KeyPose { pose: here, approach_m: 0.0, until_contact_n: None, ..ahead[0].clone() };
+        // What touches keeps away from nothing any more: it is there already.
+        let (start, holding, carried) = (&state.joints, past.carrying, &[]);
+        let obstacles = self.obstacles;
         let mut refused = String::new();
         for share in RETREAT_SHARES {
-            let retreat_m = key.retreat_m * share;
-            let (approach_m, until_contact_n) = (0.0, None);
-            ahead[0] =
-                KeyPose { pose: here, approach_m, until_contact_n, retreat_m, ..key.clone() };
-            let task = MotionTask { start, holding, carried, key_poses: &ahead, obstacles };
+            let mut key_poses = ahead.clone();
+            key_poses.iter_mut().for_each(|key| key.retreat_m *= share);
+            let task = MotionTask { start, holding, carried, key_poses: &key_poses, obstacles };
             let outcome = self.motion.plan(self.model, self.kinematics, &task);
             match outcome.map_err(|e| e.to_string())? {
                 MotionOutcome::Planned { program, .. } => {
@@ -184,11 +197,11 @@ impl Execution<'_> {
     /// The hand is at `here` instead of at the first of the key poses `ahead`: those that are
     /// reached by the motion that was shown are moved with it.
     fn go_onward(&self, here: &Pose, ahead: &mut [KeyPose]) {
-        let onward = |key: &KeyPose| {
-            self.stages.iter().any(|stage| stage.name == key.stage && stage.onward)
-        };
-        let (mut before, mut reached) = (ahead[0].pose, *here);
-        for key in &mut ahead[1..] {
+        let Some((first, rest)) = ahead.split_first_mut() else { return };
+        let onward =
+            |key: &KeyPose| self.stages.iter().any(|stage| stage.name == key.stage && stage.onward);
+        let (mut before, mut reached) = (first.pose, *here);
+        for key in rest {
             let shown = key.pose;
             if onward(key) {
                 key.pose = shown * before.inverse() * reached;

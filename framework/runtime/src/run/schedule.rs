@@ -9,7 +9,9 @@ use super::outcome::Outcome;
 use super::record::Recorded;
 use super::step::{Failed, Step};
 use super::{Acted, Encoded, Perceived, Planned, Seen, Transferred};
-use super::{act, check, encode, judge, observe, perceive, plan, record, require, transfer, withdraw};
+use super::{
+    act, check, encode, judge, observe, perceive, plan, record, require, transfer, withdraw,
+};
 use crate::plugins::Plugins;
 use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};

@@ -30,9 +30,8 @@ pub(super) fn withdraw(
         }
         let cancel = bench.cancel().clone();
         let mut acted = before.map(|mut acted| std::mem::take(&mut *acted)).unwrap_or_default();
-        let withdrawn = bench.step(Step::Withdraw, |plugins| {
-            withdrawn(plugins, assignment, &cancel, &mut acted)
-        });
+        let withdrawn = bench
+            .step(Step::Withdraw, |plugins| withdrawn(plugins, assignment, &cancel, &mut acted));
         commands.entity(run).insert(acted).remove::<Withdraw>();
         if let Err(failed) = withdrawn {
             commands.entity(run).insert(failed);
