@@ -7,11 +7,11 @@
 
 use super::act::{Acted, Snapshot};
 use super::cancel::Cancel;
+use super::onward::onward;
 use super::plan::RETREAT_SHARES;
 use super::step::{Failed, StageEvent};
 use crate::files::Stage;
 use nalgebra::Point3;
-use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::motion::Obstacle;
@@ -166,7 +166,7 @@ impl Execution<'_> {
         let mut ahead: Vec<KeyPose> = ahead.cloned().collect();
         let key = ahead.first().ok_or("the program has a stage without a key pose")?;
         let short_m = difference(&here, &key.pose).0;
-        self.go_onward(&here, &mut ahead);
+        onward(self.stages, &here, &mut ahead);
         let opens = |key: &KeyPose| matches!(key.gripper, Some(GripperCommand::Open { .. }));
         if pushed_out && let Some(opening) = ahead.iter().position(opens) {
             ahead.drain(..opening);
@@ -192,22 +192,6 @@ impl Execution<'_> {
             }
         }
         Err(format!("felt contact, and there is no way on from there: {refused}"))
-    }
-
-    /// The hand is at `here` instead of at the first of the key poses `ahead`: those that are
-    /// reached by the motion that was shown are moved with it.
-    fn go_onward(&self, here: &Pose, ahead: &mut [KeyPose]) {
-        let Some((first, rest)) = ahead.split_first_mut() else { return };
-        let onward =
-            |key: &KeyPose| self.stages.iter().any(|stage| stage.name == key.stage && stage.onward);
-        let (mut before, mut reached) = (first.pose, *here);
-        for key in rest {
-            let shown = key.pose;
-            if onward(key) {
-                key.pose = shown * before.inverse() * reached;
-            }
-            (before, reached) = (shown, key.pose);
-        }
     }
 
     /// Opens the fingers and goes back the way the hand came.

@@ -31,6 +31,7 @@ mod execution;
 mod hull;
 mod judge;
 mod observe;
+mod onward;
 mod outcome;
 mod perceive;
 mod plan;

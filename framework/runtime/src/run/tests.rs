@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::fakes::{Behaviour, FakeCell};
+use crate::files::Stage;
 use crate::record::{Channel, read};
 use crate::transfer::ANCHOR;
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
@@ -246,6 +247,22 @@ fn contact_ends_a_line_and_the_rest_is_planned_from_there() {
         outcome.reason,
         "release: felt contact, and there is no way on from there: release: 0.30 m out of reach"
     );
+}
+
+#[test]
+fn what_was_pushed_out_before_it_was_to_be_let_go_is_let_go_there() {
+    let mut cell = FakeCell::new();
+    let release = &cell.skill.stages[1];
+    let mut feel = release.clone();
+    (feel.name, feel.gripper, feel.retreat_m) = ("feel".into(), None, 0.0);
+    feel.until_contact_n = Some(10.0);
+    let press = Stage { until_contact_n: Some(20.0), onward: true, ..release.clone() };
+    cell.skill.stages.splice(1.., [feel, press]);
+    let behaviour = Behaviour { touches: true, slips: true, ..Behaviour::default() };
+    let outcome = finished(&cell, behaviour).outcome;
+    assert_eq!((outcome.success, outcome.failed_at.clone()), (Some(true), None), "{outcome:?}");
+    let told = outcome.stages.iter().find(|stage| stage.name == "feel").unwrap();
+    assert!(told.reason.as_deref().unwrap().starts_with("pushed out of the hand "));
 }
 
 #[test]

@@ -53,6 +53,7 @@ const WELL: Behaviour = Behaviour {
     holds: false,
     spoils: false,
     clears: false,
+    falls: 0,
 };
 const MISS: Behaviour = Behaviour { misses: 1, ..WELL };
 const BLIND: Behaviour = Behaviour { blind: true, ..WELL };

@@ -33,7 +33,7 @@ const TOUCH_N: f64 = 10.0;
 /// resistance, until its nose is up by so much, degrees; ...
 const LEVEL_DEG: f64 = -2.0;
 /// ... not against more than this, newtons.
-const MOST_N: f64 = 40.0;
+const MOST_N: f64 = 20.0;
 /// It is drawn down once more, metres, until the head bears [`TOUCH_N`] more, and let go.
 const DRAW_M: f64 = 0.06;
 
