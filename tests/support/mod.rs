@@ -53,6 +53,7 @@ impl Bench {
         for name in [
             "skills/cap-wearing.toml",
             "skills/cap-wearing/demonstration.ply",
+            "skills/cap-wearing/result.ply",
             "skills/tasks/dress.toml",
             "skills/cap-hanging.toml",
             "skills/cap-hanging/demonstration.ply",

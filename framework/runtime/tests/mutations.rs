@@ -133,6 +133,7 @@ fn copies() -> tempfile::TempDir {
     let repository = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
     let others = [
         "skills/cap-wearing/demonstration.ply",
+        "skills/cap-wearing/result.ply",
         "skills/cap-handing-over/demonstration.ply",
         "skills/cap-hanging/demonstration.ply",
         "robots/ur5-ag95.urdf",
@@ -235,6 +236,11 @@ fn skill(skill: &Skill) {
     for stage in &skill.stages {
         within(stage.turn_about_closing_deg, 0.0, 180.0);
         stage.until_contact_n.iter().for_each(|force| within(*force, 1.0, 50.0));
+    }
+    for result in &skill.result {
+        within(result.within_m, 1e-3, 1.0);
+        within(result.within_deg, 1.0, 180.0);
+        assert!(skill.demonstration.frames.contains_key(&result.frame));
     }
     match &skill.measure {
         Measure::Worn { tolerance_d: share } => within(*share, 1e-3, 1.0),

@@ -8,8 +8,9 @@ use crate::{Ending, builtin, console};
 use anyhow::{Context, Result};
 use seeone_runtime::files::Skill;
 use std::fs;
+use std::path::PathBuf;
 
-/// Writes `NAME.toml` and the cloud of its demonstration into the folder `NAME` beside it.
+/// Writes `NAME.toml` and the clouds of its demonstration into the folder `NAME` beside it.
 ///
 /// # Errors
 /// Every fault of the skill it is begun from, a name that is none, files that are there already
@@ -20,20 +21,27 @@ pub fn run(args: &NewSkillArgs) -> Result<Ending> {
     let own = args.folder.join(&args.name);
     check_name(&args.name)?;
     check_vacant(&[&path, &own])?;
-    let shown = skill.demonstration.cloud.clone();
-    let cloud =
-        fs::read(&shown).with_context(|| format!("cannot read the cloud {}", shown.display()))?;
+    let mut clouds = vec![moved(&mut skill.demonstration.cloud, own.join("demonstration.ply"))?];
+    if let Some(result) = &mut skill.result {
+        clouds.push(moved(&mut result.cloud, own.join("result.ply"))?);
+    }
     skill.name.clone_from(&args.name);
-    skill.demonstration.cloud = own.join("demonstration.ply");
     let text = header(&args.from.display().to_string()) + &skill.to_toml(&args.folder)?;
     make_folder(&own)?;
-    write_file(&skill.demonstration.cloud, &cloud)?;
-    write_file(&path, text.as_bytes())?;
-    for made in [&path, &skill.demonstration.cloud] {
-        console::tell(&format!("wrote {}", made.display()));
+    for (path, cloud) in clouds.iter().chain([&(path.clone(), text.into_bytes())]) {
+        write_file(path, cloud)?;
+        console::tell(&format!("wrote {}", path.display()));
     }
     console::tell(&format!("next: seeone check {0} && seeone run {0} --dry-run", path.display()));
     Ok(Ending::Success)
+}
+
+/// Names a cloud `to` from now on: with its bytes.
+fn moved(cloud: &mut PathBuf, to: PathBuf) -> Result<(PathBuf, Vec<u8>)> {
+    let bytes =
+        fs::read(&*cloud).with_context(|| format!("cannot read the cloud {}", cloud.display()))?;
+    cloud.clone_from(&to);
+    Ok((to, bytes))
 }
 
 /// What a skill's author does next.
