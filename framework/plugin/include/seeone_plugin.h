@@ -31,9 +31,9 @@
 
 /**
  * May differ: functions were appended to the end of a table, whose `size` tells, or methods and
- * codes to those that there were. 1: `stop`, and a watcher that asks for an end.
+ * codes to those that there were.
  */
-#define SEEONE_ABI_MINOR 1
+#define SEEONE_ABI_MINOR 0
 
 /**
  * `alignment`.
@@ -178,7 +178,8 @@ enum SeeoneMethod
    */
   SeeoneMethod_OpenFingers = 20,
   /**
-   * The world: nothing `->` list of meshes: points, list of triangles (three numbers each).
+   * The world: nothing `->` list of surfaces: points, list of triangles
+   * (three numbers each), whether it has the colour of the objects to be taken.
    */
   SeeoneMethod_Surfaces = 21,
   /**

@@ -25,14 +25,23 @@ fn every_skill_task_scene_and_robot_passes_the_check() {
 }
 
 #[test]
-fn the_camera_sees_the_drop_zone_in_the_middle_of_its_image() {
+fn the_camera_sees_caps_in_the_drop_zone_and_on_the_head_whole() {
     let scene =
         Scene::read(&repository().join("scenes/head.toml"), &KnownMethods::new()).expect("a scene");
-    let centre = Point3::new(scene.drop.centre.x, scene.drop.centre.y, 0.03);
-    let seen = scene.camera.inverse_transform_point(&centre);
-    let (u, v, depth) = scene.intrinsics.project(&seen).expect("in front");
-    assert!((u - 319.5).abs() < 1.0 && (v - 239.5).abs() < 1.0, "{u} {v}");
-    assert!((depth - 0.75).abs() < 0.01, "{depth}");
+    let dropped = Point3::new(scene.drop.centre.x, scene.drop.centre.y, 0.05);
+    let head = scene.head().expect("a head").pose.translation.vector;
+    let worn = Point3::from(head + Vector3::z() * 0.05);
+    // A cap reaches 0.16 m from its middle.
+    for (middle, far) in [(dropped, 0.8), (worn, 1.1)] {
+        for side in [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| axis * 0.16) {
+            for point in [middle + side, middle - side] {
+                let seen = scene.camera.inverse_transform_point(&point);
+                let (u, v, depth) = scene.intrinsics.project(&seen).expect("in front");
+                assert!((0.0..640.0).contains(&u) && (0.0..480.0).contains(&v), "{point}: {u} {v}");
+                assert!((0.4..far).contains(&depth), "{point}: {depth}");
+            }
+        }
+    }
     let down = scene.camera * Vector3::y();
     assert!(down.z < 0.0, "the image is upright");
 }

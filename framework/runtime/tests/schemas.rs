@@ -84,6 +84,7 @@ fn refusal(value: &Value, schema: &Value, root: &Value) -> Option<String> {
         "string" => value.is_string(),
         "number" => value.is_number(),
         "integer" => value.is_u64() || value.is_i64(),
+        "boolean" => value.is_boolean(),
         "null" => value.is_null(),
         other => panic!("a type {other}"),
     };
