@@ -49,10 +49,13 @@ impl Off {
     }
 }
 
+/// Runs that have carried out what they were to do.
+type Done = (Without<Failed>, Without<Again>);
+
 pub(super) fn check(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    mut runs: Query<(Entity, &Assignment, &mut Acted), (Without<Failed>, Without<Again>)>,
+    mut runs: Query<(Entity, &Assignment, &mut Acted), Done>,
 ) {
     for (run, assignment, mut acted) in &mut runs {
         let Some(shown) = &assignment.skill.result else { continue };

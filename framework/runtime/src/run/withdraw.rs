@@ -19,10 +19,13 @@ const RETREAT_M: f64 = 0.15;
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Withdraw;
 
+/// Runs that begin by going back.
+type Returning = (With<Withdraw>, Without<Failed>);
+
 pub(super) fn withdraw(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    mut runs: Query<(Entity, &Assignment, Option<&mut Acted>), (With<Withdraw>, Without<Failed>)>,
+    mut runs: Query<(Entity, &Assignment, Option<&mut Acted>), Returning>,
 ) {
     for (run, assignment, before) in &mut runs {
         if assignment.dry_run {
