@@ -108,7 +108,7 @@ pub struct CellArgs {
     /// Use another plugin of a kind, e.g. `transfer=unchanged`; may be repeated.
     #[arg(long = "method", value_name = "KIND=PLUGIN", value_parser = parse_override)]
     pub methods: Vec<(Kind, String)>,
-    /// How often the robot may look and reach for the object if its hand closes on nothing; a
+    /// How often the robot may look and reach for the object if a try does not come out; a
     /// task says itself how often its steps are tried.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,

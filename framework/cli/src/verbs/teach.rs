@@ -81,7 +81,8 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         Shown::Hanging => hanging::lesson(&cell, &scene)?,
     };
     let last = lesson.stages.last().ok_or_else(|| anyhow!("the lesson has no stage"))?;
-    let key_poses: Vec<KeyPose> = lesson.stages.iter().map(key_pose).collect();
+    let key_poses: Vec<KeyPose> =
+        lesson.stages.iter().map(|stage| stage.key_pose(stage.gripper_pose)).collect();
     let start = arm.state()?.joints;
     let obstacles = scene.obstacles();
     let carried = Hull::of(&observation.cloud).in_the_hand(&key_poses);
@@ -129,14 +130,13 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         return Ok(Ending::Failure);
     }
     // Looked at as a run will: the hand is back where it waits.
-    let home =
-        KeyPose { stage: "look".into(), pose: robot.tool_pose(robot.home()), ..key_pose(last) };
+    let home = stage("look", RelativeTo::Object, robot.tool_pose(robot.home()));
     let start = arm.state()?.joints;
     let look = MotionTask {
         start: &start,
         holding: false,
         carried: &[],
-        key_poses: &[KeyPose { gripper: None, retreat_m: 0.0, until_contact_n: None, ..home }],
+        key_poses: &[home.key_pose(home.gripper_pose)],
         obstacles: &obstacles,
     };
     if let MotionOutcome::Planned { program, .. } =
@@ -231,19 +231,6 @@ fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
         lift_m: 0.0,
         turn_about_closing_deg: 0.0,
         onward: false,
-    }
-}
-
-fn key_pose(stage: &Stage) -> KeyPose {
-    KeyPose {
-        stage: stage.name.clone(),
-        pose: stage.gripper_pose,
-        approach_m: stage.approach_m,
-        opening_m: stage.opening_m,
-        until_contact_n: stage.until_contact_n,
-        gripper: stage.gripper,
-        retreat_m: stage.retreat_m,
-        lift_m: stage.lift_m,
     }
 }
 

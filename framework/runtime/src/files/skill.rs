@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 use seeone_core::Pose;
-use seeone_plugin::{GripperCommand, Kind, Measure};
+use seeone_plugin::{GripperCommand, KeyPose, Kind, Measure};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -111,6 +111,21 @@ impl Skill {
 }
 
 impl Stage {
+    /// What a planner is asked for, with the tool frame at `pose` in `world` instead of where it
+    /// was shown.
+    pub fn key_pose(&self, pose: Pose) -> KeyPose {
+        KeyPose {
+            stage: self.name.clone(),
+            pose,
+            approach_m: self.approach_m,
+            opening_m: self.opening_m,
+            until_contact_n: self.until_contact_n,
+            gripper: self.gripper,
+            retreat_m: self.retreat_m,
+            lift_m: self.lift_m,
+        }
+    }
+
     /// Opening while approaching when the file does not say it, metres.
     pub const OPENING_M: f64 = 0.03;
     /// Turn about the closing axis when the file does not say it, degrees.

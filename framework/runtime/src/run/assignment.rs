@@ -31,8 +31,8 @@ pub struct Assignment {
     pub robot_name: String,
     /// The seed of the run.
     pub seed: u64,
-    /// How often the robot may look and reach for the object, if its hand closes on
-    /// nothing; one or more.
+    /// How often the robot may look and reach for the object, if a try does not come out; one or
+    /// more.
     pub tries: usize,
     /// Whether to stop after planning.
     pub dry_run: bool,

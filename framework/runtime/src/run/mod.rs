@@ -16,7 +16,8 @@
 //!
 //! A step that cannot do its work leaves [`Failed`], and the steps after it are passed over;
 //! judging and recording are not, so that every run ends with a verdict and a whole file.
-//! The first two are for runs of a [`task`](crate::task) alone.
+//! The first is for what follows a run or a try that failed, the second for runs of a
+//! [`task`](crate::task) alone.
 //! Withdraw to check are one schedule, made again when it did not come out; judge and record
 //! are another. Both are single-threaded and chained; no step reads a clock but the one that is
 //! handed in, and nothing of that goes into a recording.

@@ -44,19 +44,6 @@ mod tests {
         }
     }
 
-    fn key(stage: &Stage) -> KeyPose {
-        KeyPose {
-            stage: stage.name.clone(),
-            pose: stage.gripper_pose,
-            approach_m: 0.0,
-            opening_m: Stage::OPENING_M,
-            until_contact_n: None,
-            gripper: None,
-            retreat_m: 0.0,
-            lift_m: 0.0,
-        }
-    }
-
     /// Down to a place, turned about a point beside it, drawn down; then to somewhere else.
     #[test]
     fn a_turn_about_a_point_stays_one_and_a_place_stays_where_it_is() {
@@ -72,7 +59,7 @@ mod tests {
             stage("away", away, false),
         ];
         let here = Pose::translation(0.01, 0.0, 0.04) * feel;
-        let mut ahead: Vec<KeyPose> = stages.iter().map(key).collect();
+        let mut ahead: Vec<KeyPose> = stages.iter().map(|s| s.key_pose(s.gripper_pose)).collect();
         onward(&stages, &here, &mut ahead);
         let expected = [feel, turn * here, draw * turn * here, away];
         for (key, expected) in ahead.iter().zip(&expected) {

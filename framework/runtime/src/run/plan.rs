@@ -151,15 +151,9 @@ fn key_poses(
     };
     let stages = assignment.skill.stages.iter();
     stages
-        .map(|stage| KeyPose {
-            stage: stage.name.clone(),
-            pose: pose(&stage.relative_to, &stage.gripper_pose) * turn.pose(),
-            approach_m: stage.approach_m,
-            opening_m: stage.opening_m,
-            until_contact_n: stage.until_contact_n,
-            gripper: stage.gripper,
-            retreat_m: stage.retreat_m,
-            lift_m: stage.lift_m,
+        .map(|stage| {
+            let at = pose(&stage.relative_to, &stage.gripper_pose) * turn.pose();
+            stage.key_pose(at)
         })
         .collect()
 }
