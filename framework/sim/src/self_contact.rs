@@ -66,7 +66,7 @@ impl Pair {
 #[derive(Clone, Debug)]
 pub struct SelfContact {
     triangles: Vec<[u32; 3]>,
-    /// For each triangle, ascending, the vertices that never collide with it.
+    /// For each triangle the vertices that never collide with it.
     exempt: Vec<Vec<u32>>,
     reach: Reach,
     near: Near,
@@ -107,7 +107,6 @@ impl SelfContact {
                     near.push(vertex);
                 }
             });
-            near.sort_unstable();
             near
         };
         let reach = Reach::of(mesh);
@@ -173,6 +172,7 @@ impl SelfContact {
             let [a, b, c] = &corners;
             let reach = Vector3::repeat(reach_m);
             let (low, high) = (a.inf(b).inf(c) - reach, a.sup(b).sup(c) + reach);
+            let first = fresh.len();
             for vertex in near.of(t) {
                 let point = &position[*vertex as usize];
                 // Without a branch an axis: which of them fails cannot be predicted.
@@ -196,6 +196,7 @@ impl SelfContact {
                     fresh.push(Pair { triangle: t as u32, vertex: *vertex, side, ring });
                 }
             }
+            fresh[first..].sort_unstable_by_key(|p| p.vertex);
         }
         std::mem::swap(&mut self.pairs, &mut self.fresh);
         self.sort_into_rings();

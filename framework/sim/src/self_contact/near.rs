@@ -17,10 +17,13 @@ pub struct Near {
     cell_m: f64,
     grid: Grid,
     found_at: Snapshot,
-    /// Triangle by triangle, ascending in each.
+    /// Triangle by triangle, in each as the cells of the grid come.
     vertices: Vec<u32>,
     /// Where each triangle's begin; one entry more than triangles.
     starts: Vec<usize>,
+    /// For each vertex the last triangle that it is exempt at: of the many vertices that are
+    /// looked at few are exempt, and looking each up among those took longer than finding it.
+    exempt_at: Vec<u32>,
 }
 
 impl Near {
@@ -33,11 +36,12 @@ impl Near {
             found_at: Snapshot::default(),
             vertices: Vec::new(),
             starts: Vec::new(),
+            exempt_at: Vec::new(),
         }
     }
 
     /// Brings the lists up to date: after it they hold every vertex within `reach_m` of each
-    /// triangle at `position`, but for those that are `exempt` there. `frame` (shell -> world)
+    /// triangle at `position`, but for those that are `exempt` there, in any order. `frame` (shell -> world)
     /// moves about as the whole shell does.
     pub fn update(
         &mut self,
@@ -50,21 +54,22 @@ impl Near {
         if self.found_at.moved_m(position, frame) <= self.margin_m / 2.0 {
             return;
         }
-        let Self { margin_m, cell_m, grid, found_at, vertices, starts } = self;
+        let Self { margin_m, cell_m, grid, found_at, vertices, starts, exempt_at } = self;
         found_at.take(position, frame);
         grid.fill(position, *cell_m);
         vertices.clear();
         starts.clear();
         starts.push(0);
-        for (triangle, exempt) in triangles.iter().zip(exempt) {
+        exempt_at.clear();
+        exempt_at.resize(position.len(), u32::MAX);
+        for (t, (triangle, exempt)) in (0..).zip(triangles.iter().zip(exempt)) {
+            exempt.iter().for_each(|v| exempt_at[*v as usize] = t);
             let corners = triangle.map(|v| position[v as usize]);
-            let first = vertices.len();
             grid.for_each_around(&corners, reach_m + *margin_m, |v| {
-                if exempt.binary_search(&v).is_err() {
+                if exempt_at[v as usize] != t {
                     vertices.push(v);
                 }
             });
-            vertices[first..].sort_unstable();
             starts.push(vertices.len());
         }
     }

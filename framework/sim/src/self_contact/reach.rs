@@ -21,6 +21,9 @@ pub struct Reach {
     pub tangle_m: f64,
     /// Edge of a cell of the search grids.
     pub cell_m: f64,
+    /// Edges longer than this are compared with every triangle: a grid serves the many short
+    /// ones, and is searched as far as half of the longest of them.
+    pub long_m: f64,
 }
 
 impl Reach {
@@ -32,6 +35,7 @@ impl Reach {
             near_m: 0.012 * scale,
             tangle_m: 4.0e-3 * scale.powi(2),
             cell_m: 0.010 * scale,
+            long_m: 0.020 * scale,
         }
     }
 }

@@ -16,9 +16,6 @@ const STEP_M: f64 = 3.0e-4;
 /// Substeps between two searches, while nothing is pierced and while something is.
 const CALM_SUBSTEPS: u32 = 40;
 const TANGLED_SUBSTEPS: u32 = 4;
-/// Edges longer than this are compared with every triangle, metres: the grid serves the
-/// many short ones.
-const LONG_M: f64 = 0.02;
 /// With more than this share of the vertices moved so far, all is remembered anew; with
 /// fewer, what belongs to them is looked up.
 const MOVED_SHARE: f64 = 0.25;
@@ -72,8 +69,9 @@ impl Tangle {
             Winged { ends: e.ends.map(|v| v as u32), wings: [wing(first), wing(last)] }
         };
         let all = topology::edges(mesh.triangles());
-        let long =
-            |e: &Edge| (mesh.vertices()[e.ends[0]] - mesh.vertices()[e.ends[1]]).norm() > LONG_M;
+        let long = |e: &Edge| {
+            (mesh.vertices()[e.ends[0]] - mesh.vertices()[e.ends[1]]).norm() > reach.long_m
+        };
         let (long, short): (Vec<_>, Vec<_>) = all.iter().partition(|e| long(e));
         Self {
             short: short.len(),
