@@ -46,8 +46,9 @@ pub(crate) fn unsolved(
         None => {
             let held = held_up(robot, query, best);
             if held.is_empty() && contact.is_none() {
-                told +=
-                    ", where no joint is at its limit and nothing touches: the links get no nearer";
+                let asked = query.clearance.is_some();
+                let nothing = if asked { " and nothing touches" } else { "" };
+                told += &format!(", where no joint is at its limit{nothing}");
             }
             told += &held;
         }

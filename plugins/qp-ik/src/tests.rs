@@ -261,7 +261,7 @@ fn a_pose_in_the_arms_own_foot_says_what_is_in_the_way() {
     let foot = Pose::from_parts(Translation3::new(0.02, 0.02, 0.15), down);
     let numerical = IkConfig { closed_form: false, ..IkConfig::default() };
     let axis = "mm nearer to the axis of shoulder_pan_joint than the arm can fold";
-    let links = "where no joint is at its limit and nothing touches: the links get no nearer";
+    let links = "off, where no joint is at its limit and nothing touches";
     for (solver, told) in [(qp(), axis), (QpIk::new(numerical, 1).unwrap(), links)] {
         let query = IkQuery { clearance: Some(&checker), ..IkQuery::new(&foot, &HOME) };
         let outcome = solver.solve(&robot, &query).unwrap();
