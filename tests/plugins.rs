@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use support::{Bench, Call, root, seeone};
 use tempfile::TempDir;
 
@@ -179,12 +179,15 @@ fn a_run_survives_a_plugin_that_misbehaves_and_says_which() {
             "its answer is not to be believed: 0 joints of a robot with 6",
         ),
         ("robot", "silence", "execute", "it failed with status 4 and said nothing"),
+        ("robot", "freeze", "execute", "no sign of life for 2 s"),
+        ("robot", "deaf", "execute", "it does not move"),
     ] {
         let bench = Bench::new();
         bench.append("robots/ur5-ag95-sim.toml", &format!("\n[config.{kind}]\ndo = \"{deed}\"\n"));
         let method = format!("{kind}=misbehaving");
         let patience = ["--plugin-patience", "2", "--tries", "1", "--json"];
         let words = ["--plugin", library, "--method", &method];
+        let began = Instant::now();
         let call = bench.run(&[&words[..], &patience[..]].concat());
         assert_eq!(call.status, Some(1), "{kind} {deed}: {}", call.stderr);
         let (outcome, recording) = told(&call);
@@ -195,10 +198,20 @@ fn a_run_survives_a_plugin_that_misbehaves_and_says_which() {
         let stages = outcome["stages"].as_array().expect("stages");
         let deaf = stages.iter().find(|stage| stage["name"] == "stop");
         let deaf = deaf.map(|stage| stage["reason"].as_str().expect("a reason"));
-        assert!(deaf.is_none_or(|why| why.contains("may be moving")), "{deaf:?}");
+        let warned = |why: &str| {
+            why.contains("may be moving and where it is is not known, so use its emergency stop")
+                && why.contains("robot plugin \"misbehaving\" in \"stop\": ")
+        };
+        assert!(deaf.is_none_or(warned), "{deaf:?}");
         let answers = kind != "robot" || ["nan", "nothing"].contains(&deed);
         assert_eq!(deaf.is_none(), answers, "{kind} {deed}: {outcome}");
+        // It waits for the plugin once, and not again.
+        assert!(began.elapsed() < Duration::from_secs(90), "{kind} {deed}: {:?}", began.elapsed());
         let recording = read(&recording).expect("a whole recording");
+        // What was seen of the robot until then is in it.
+        let frozen = deed == "freeze";
+        let seen = recording.of(Channel::Robot).any(|entry| entry.time_s == 0.5);
+        assert!(!frozen || seen, "{kind} {deed}");
         let verdict = &recording.of(Channel::Verdict).last().expect("a verdict").body;
         assert_eq!(verdict["success"], false, "{kind} {deed}");
     }

@@ -2,7 +2,8 @@
 //! does about it: `do = "panic"`, `"hang"`, `"nan"`, `"nothing"`, `"silence"` or `"crash"`.
 
 use seeone_plugin::{
-    Action, Candidate, Felt, PluginError, Robot, RobotState, Setup, Transfer, TransferTask, Watch,
+    Action, Candidate, Felt, PluginError, Robot, RobotSample, RobotState, Setup, Transfer,
+    TransferTask, Watch,
 };
 
 seeone_plugin::export_plugins! {
@@ -18,6 +19,8 @@ enum Misbehaving {
     NaN,
     Nothing,
     Silence,
+    Freeze,
+    Deaf,
 }
 
 impl Misbehaving {
@@ -28,6 +31,8 @@ impl Misbehaving {
             Some("nan") => Ok(Self::NaN),
             Some("nothing") => Ok(Self::Nothing),
             Some("silence") => Ok(Self::Silence),
+            Some("freeze") => Ok(Self::Freeze),
+            Some("deaf") => Ok(Self::Deaf),
             Some("crash") => std::process::abort(),
             other => Err(PluginError::Configuration(format!("do = {other:?} is not known"))),
         }
@@ -37,7 +42,7 @@ impl Misbehaving {
     fn misbehave(self) -> Result<(), PluginError> {
         match self {
             Self::Panic => panic!("as it was told"),
-            Self::Hang => loop {
+            Self::Hang | Self::Freeze | Self::Deaf => loop {
                 std::thread::park();
             },
             Self::Silence => Err(PluginError::Internal(String::new())),
@@ -68,7 +73,12 @@ impl Robot for Misbehaving {
         Ok(RobotState { joints: home[..joints].to_vec(), opening_m: 0.03 })
     }
 
-    fn execute(&mut self, _: &Action, _: &mut Watch) -> Result<Felt, PluginError> {
+    fn execute(&mut self, _: &Action, watch: &mut Watch) -> Result<Felt, PluginError> {
+        match self {
+            Self::Freeze => watch(&RobotSample { time_s: 0.5, state: self.state()? })?,
+            Self::Deaf => return Err(PluginError::Internal("it does not move".into())),
+            _ => {}
+        }
         self.misbehave()?;
         let opening_m = if *self == Self::NaN { f64::NAN } else { 0.03 };
         Ok(Felt { opening_m, holding: false, contact: false })

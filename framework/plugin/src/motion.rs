@@ -152,6 +152,28 @@ impl JointTrajectory {
         Ok(())
     }
 
+    /// Refuses what `robot`, whose joints are at `joints` in radians, cannot follow from there,
+    /// so that every robot refuses alike.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] as [`Self::check`], and for a first sample that is further than
+    /// `tolerance_rad` from `joints`.
+    pub fn check_from(
+        &self,
+        robot: &RobotModel,
+        joints: &[f64],
+        tolerance_rad: f64,
+    ) -> Result<(), PluginError> {
+        self.check(robot).map_err(PluginError::Input)?;
+        let first = self.positions[0].iter().zip(joints);
+        let jump = first.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if jump > tolerance_rad {
+            let told = format!("the trajectory starts {jump:.3} rad from where the arm is");
+            return Err(PluginError::Input(told));
+        }
+        Ok(())
+    }
+
     /// How long it takes, seconds.
     pub fn duration_s(&self) -> f64 {
         self.period_s * self.positions.len().saturating_sub(1) as f64
@@ -289,7 +311,7 @@ pub trait Motion: Send + Sync {
     ///
     /// # Errors
     /// [`PluginError::Input`] for a start of the wrong length or outside the limits, or
-    /// poses that are not finite.
+    /// poses that are not finite; the error of the kinematics, which are asked no more after it.
     fn plan(
         &self,
         robot: &RobotModel,

@@ -1,6 +1,6 @@
 //! The simulated world that robot and camera plugins share, as the host offers it to them.
 
-use crate::PluginError;
+use crate::{GripperCommand, PluginError};
 use nalgebra::Vector3;
 use seeone_core::{Pose, TriangleMesh};
 
@@ -63,6 +63,23 @@ pub trait World: Send + Sync {
     /// # Errors
     /// As [`World::state`].
     fn open_fingers(&self, opening_m: f64) -> Result<(), PluginError>;
+
+    /// Begins what a gripper is told.
+    ///
+    /// # Errors
+    /// [`PluginError::Input`] for a force that is not positive or an opening that is negative, or
+    /// as [`World::state`].
+    fn grip(&self, command: GripperCommand) -> Result<(), PluginError> {
+        match command {
+            GripperCommand::Close { force_n } if force_n.is_finite() && force_n > 0.0 => {
+                self.close_fingers(force_n)
+            }
+            GripperCommand::Open { opening_m } if opening_m.is_finite() && opening_m >= 0.0 => {
+                self.open_fingers(opening_m)
+            }
+            other => Err(PluginError::Input(format!("{other:?} is no command to grip"))),
+        }
+    }
 
     /// The surfaces that a camera may see, in `world`, without the robot's.
     ///

@@ -80,10 +80,10 @@ impl ClosedForm {
     /// singularity) it takes `near`'s.
     pub fn solve(&self, target: &Pose, near: &[f64]) -> Vec<[f64; 6]> {
         let [h1, h2, _, _, h5, h6] = &self.axes;
-        let wrist = target * self.wrist_in_tool - self.shoulder;
+        let wrist = self.wrist(target);
         // How the last link has turned since the zero position.
         let turned = target.rotation * self.tool_rotation.inverse();
-        let along: f64 = self.offsets.iter().map(|offset| h2.dot(offset)).sum();
+        let along = self.sideways();
         let mut solutions = Vec::with_capacity(8);
         for q1 in projecting(h2, &back(h1), &wrist, along, self.slack) {
             let shoulder = UnitQuaternion::from_axis_angle(h1, q1);
@@ -108,6 +108,22 @@ impl ClosedForm {
             }
         }
         solutions
+    }
+
+    /// By how much the wrist, for the tool pose `target` in `world`, would be nearer to the first
+    /// axis than the arm can fold, metres; negative where it is further away.
+    pub(crate) fn inside(&self, target: &Pose) -> f64 {
+        self.sideways().abs() - self.wrist(target).cross(&self.axes[0]).norm()
+    }
+
+    /// From a point on axis 1 to where axes 5 and 6 meet.
+    fn wrist(&self, target: &Pose) -> Vector3<f64> {
+        target * self.wrist_in_tool - self.shoulder
+    }
+
+    /// How far the wrist is beside the plane that the upper arm and the forearm move in.
+    fn sideways(&self) -> f64 {
+        self.offsets.iter().map(|offset| self.axes[1].dot(offset)).sum()
     }
 
     /// Angles 2 and 3 about the second axis that bring the fourth to `reach`.

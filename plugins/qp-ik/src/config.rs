@@ -11,6 +11,9 @@ pub struct IkConfig {
     pub closed_form: bool,
     /// Seeded random starts after all others.
     pub restarts: usize,
+    /// How many different solutions that touch nothing are gathered from random starts before the
+    /// best of them is chosen; with 1 the first one is taken.
+    pub solutions: usize,
     /// Most steps from one start.
     pub max_iterations: usize,
     /// Largest joint step, radians.
@@ -28,6 +31,7 @@ impl Default for IkConfig {
         Self {
             closed_form: true,
             restarts: 100,
+            solutions: 4,
             max_iterations: 60,
             step_rad: 0.6,
             damping: 1e-6,
@@ -43,6 +47,9 @@ impl IkConfig {
         let told = |cause: &str| Err(PluginError::Configuration(cause.into()));
         if self.max_iterations == 0 {
             return told("max_iterations must be at least 1");
+        }
+        if self.solutions == 0 {
+            return told("solutions must be at least 1");
         }
         if !(self.step_rad.is_finite() && self.step_rad > 0.0) {
             return told("step_rad must be positive");

@@ -5,8 +5,9 @@
 //! damped normal equations. Descent from one start ends in a local minimum at a joint
 //! limit for one target in seven, whatever takes the steps, so the starts come from the
 //! closed form where the arm has three parallel joints and an intersecting wrist pair
-//! (the UR family), and from seeded draws otherwise. Of several answers the one is taken that
-//! touches nothing, is near the start, away from limits and away from singularities.
+//! (the UR family), and from seeded draws otherwise. Of several answers, all of the closed form or the
+//! first few that draws lead to, the one is taken that touches nothing, is near the start, away from
+//! limits and away from singularities.
 
 mod cholesky;
 mod closed_form;
@@ -19,7 +20,9 @@ mod normal;
 mod problem;
 mod program;
 mod quadratic;
+mod rank;
 mod reason;
+mod search;
 mod seeds;
 mod solver;
 mod subproblem;

@@ -1,12 +1,12 @@
-//! The two plugins: starts, descents, and the choice among what they find.
+//! The two plugins: one search with either way to take a step.
 
+use crate::IkConfig;
 use crate::damped::Damped;
-use crate::descent::{Miss, Step, Workspace};
+use crate::descent::{Step, Workspace};
 use crate::quadratic::Quadratic;
-use crate::seeds::{Excess, Known};
-use crate::{ClosedForm, IkConfig, reason, seeds};
+use crate::search::Search;
 use seeone_core::robot::RobotModel;
-use seeone_plugin::{Contact, IkOutcome, IkQuery, IkStatus, Kinematics, PluginError, Setup};
+use seeone_plugin::{IkOutcome, IkQuery, Kinematics, PluginError, Setup};
 use std::sync::{Mutex, PoisonError};
 
 /// Inverse kinematics by quadratic programs (clarabel).
@@ -79,37 +79,14 @@ impl<S: Step> Descents<S> {
         query.check(robot)?;
         let mut workspace = self.take(robot.joints().len(), query.clearance.is_some());
         let mut search = Search::new(robot, query, &self.config);
-        self.search(&mut workspace, &mut search);
+        search.run(&mut workspace, self.seed);
         if query.clearance.is_some() && !search.is_solved() {
             // Then let it say what is in the way.
             search.keeps_apart = false;
-            self.search(&mut workspace, &mut search);
+            search.run(&mut workspace, self.seed);
         }
         self.give_back(workspace);
         Ok(search.outcome())
-    }
-
-    /// Descends from one start after the other until an answer touches nothing.
-    fn search(&self, workspace: &mut Workspace<S>, search: &mut Search) {
-        let (robot, query) = (search.robot, search.query);
-        if query.continuous {
-            search.start(workspace, query.near);
-            return;
-        }
-        let geometry = if self.config.closed_form { ClosedForm::of(robot) } else { None };
-        if let Some(geometry) = geometry {
-            let known = seeds::closed_form(&geometry, robot, query.target, query.near);
-            let Known { seeds, excess } = known;
-            search.excess = if seeds.is_empty() { excess } else { None };
-            // The closed form finds every solution there is; more starts would find no other.
-            let ended = seeds.iter().any(|start| search.start(workspace, start));
-            if !(ended || search.is_solved()) {
-                search.start(workspace, query.near);
-            }
-        } else if !search.start(workspace, query.near) {
-            let mut restarts = seeds::random(robot, self.seed, self.config.restarts);
-            restarts.any(|start| search.start(workspace, &start));
-        }
     }
 
     fn take(&self, joints: usize, keeps_clear: bool) -> Workspace<S> {
@@ -122,80 +99,5 @@ impl<S: Step> Descents<S> {
 
     fn give_back(&self, workspace: Workspace<S>) {
         self.spare.lock().unwrap_or_else(PoisonError::into_inner).push(workspace);
-    }
-}
-
-/// What has been found so far.
-struct Search<'a> {
-    robot: &'a RobotModel,
-    query: &'a IkQuery<'a>,
-    config: &'a IkConfig,
-    /// Whether descents keep near bodies apart.
-    keeps_apart: bool,
-    /// The best posture that is not solved, or is and touches nothing.
-    best: Option<(Miss, Vec<f64>)>,
-    /// The first solution that touches something, and what.
-    touching: Option<(Miss, Vec<f64>, Contact)>,
-    /// How many solutions touch something.
-    touches: usize,
-    /// Which limit keeps every exact solution away.
-    excess: Option<Excess>,
-    iterations: usize,
-}
-
-impl<'a> Search<'a> {
-    fn new(robot: &'a RobotModel, query: &'a IkQuery<'a>, config: &'a IkConfig) -> Self {
-        let (best, touching, excess) = (None, None, None);
-        let (keeps_apart, touches, iterations) = (true, 0, 0);
-        Self { robot, query, config, keeps_apart, best, touching, touches, excess, iterations }
-    }
-
-    /// Descends from `start` and says whether that ends the search.
-    fn start<S: Step>(&mut self, workspace: &mut Workspace<S>, start: &[f64]) -> bool {
-        let (miss, iterations) =
-            workspace.descend(self.robot, self.query, start, self.keeps_apart, self.config);
-        self.iterations += iterations;
-        let found = &workspace.best;
-        if miss.is_solved()
-            && let Some(contact) = self.query.clearance.and_then(|c| c.contact(found))
-        {
-            self.touches += 1;
-            self.touching.get_or_insert_with(|| (miss, found.clone(), contact));
-            return false;
-        }
-        if self.best.as_ref().is_none_or(|(least, _)| miss.error() < least.error()) {
-            self.best = Some((miss, found.clone()));
-        }
-        miss.is_solved()
-    }
-
-    fn is_solved(&self) -> bool {
-        self.touching.is_some() || self.best.as_ref().is_some_and(|(miss, _)| miss.is_solved())
-    }
-
-    fn outcome(self) -> IkOutcome {
-        let answer = |status, miss: Miss, joints, contact, reason| IkOutcome {
-            status,
-            joints,
-            position_error_m: miss.position_m,
-            rotation_error_rad: miss.rotation_rad,
-            iterations: self.iterations,
-            contact,
-            reason,
-        };
-        match (self.best, self.touching) {
-            (Some((miss, joints)), _) if miss.is_solved() => {
-                answer(IkStatus::Solved, miss, joints, None, None)
-            }
-            (_, Some((miss, joints, contact))) => {
-                let reason = reason::touching(&contact, self.touches);
-                answer(IkStatus::Solved, miss, joints, Some(contact), Some(reason))
-            }
-            (Some((miss, joints)), None) => {
-                let reason = reason::unsolved(self.robot, self.query, &joints, miss, self.excess);
-                answer(IkStatus::Infeasible, miss, joints, None, Some(reason))
-            }
-            (None, None) => unreachable!("a search has at least one start"),
-        }
     }
 }

@@ -154,6 +154,57 @@ fn of_several_solutions_one_that_touches_nothing_is_taken() {
     assert!(mended > 10 && none_free > 3, "{mended} {none_free}");
 }
 
+/// Without a closed form the same is chosen by as with it: of what the starts lead to, the best goes
+/// first by the criterion of `rank`, which the first solution met mostly does not.
+#[test]
+fn of_the_solutions_gathered_from_seeded_starts_the_best_is_taken() {
+    let panda = robot("panda-ag95.urdf");
+    let checker = Checker::new(&panda, Margins::default(), &[], 0.095);
+    let gathering =
+        |solutions| QpIk::new(IkConfig { solutions, ..IkConfig::default() }, 1).unwrap();
+    let (first_come, several) = (gathering(1), gathering(IkConfig::default().solutions));
+    let mut rng = generator(12, "gathered");
+    let mut better = 0;
+    for _ in 0..300 {
+        let (target, near) = (panda.tool_pose(&draw(&panda, &mut rng)), draw(&panda, &mut rng));
+        let query = IkQuery { clearance: Some(&checker), ..IkQuery::new(&target, &near) };
+        let (first, best) =
+            (first_come.solve(&panda, &query).unwrap(), several.solve(&panda, &query).unwrap());
+        assert_eq!((first.status, best.status), (IkStatus::Solved, IkStatus::Solved));
+        assert_eq!(first.contact.is_some(), best.contact.is_some());
+        assert_eq!(several.solve(&panda, &query).unwrap(), best);
+        if first.joints != best.joints && first.contact.is_none() {
+            let ranked = rank::best_first(&panda, &near, vec![&first.joints, &best.joints]);
+            assert_eq!(ranked[0], &best.joints);
+            better += 1;
+        }
+    }
+    assert!(better > 60, "{better} of 300");
+}
+
+/// The closed form has all of them, so what the seeded starts lead to can be held against it.
+#[test]
+fn the_numerical_route_mostly_takes_what_the_closed_form_takes() {
+    let robot = ur5_at(Pose::identity());
+    let numerical = |solutions| {
+        let config = IkConfig { closed_form: false, solutions, ..IkConfig::default() };
+        QpIk::new(config, 1).unwrap()
+    };
+    let taken = |solver: &QpIk| {
+        let mut rng = generator(13, "both");
+        let same = (0..300).filter(|_| {
+            let (target, near) = (robot.tool_pose(&draw(&robot, &mut rng)), draw(&robot, &mut rng));
+            let query = IkQuery::new(&target, &near);
+            let chosen = solver.solve(&robot, &query).unwrap().joints;
+            let best = qp().solve(&robot, &query).unwrap().joints;
+            chosen.iter().zip(&best).all(|(a, b)| (a - b).abs() < 1e-3)
+        });
+        same.count()
+    };
+    let (first_come, several) = (taken(&numerical(1)), taken(&numerical(4)));
+    assert!(first_come < 150 && several > 200, "{first_come} {several} of 300");
+}
+
 /// A tool that is sent through a post stops in front of it; unaware of it, it arrives.
 #[test]
 fn near_pairs_bound_the_steps() {
@@ -200,6 +251,36 @@ fn the_closed_form_has_eight_exact_branches_the_original_among_them() {
             |s: &&[f64; 6]| s.iter().zip(&q).all(|(a, b)| ((a - b) / 2.0).sin().abs() < 1e-4);
         assert!(solutions.iter().any(|s| same(&s)), "{q:?}");
     }
+}
+
+#[test]
+fn a_pose_in_the_arms_own_foot_says_what_is_in_the_way() {
+    let robot = ur5_at(Pose::identity());
+    let checker = Checker::new(&robot, Margins::default(), &[], 0.095);
+    let down = robot.tool_pose(&HOME).rotation;
+    let foot = Pose::from_parts(Translation3::new(0.02, 0.02, 0.15), down);
+    let numerical = IkConfig { closed_form: false, ..IkConfig::default() };
+    let axis = "mm nearer to the axis of shoulder_pan_joint than the arm can fold";
+    let links = "off, where no joint is at its limit and nothing touches";
+    for (solver, told) in [(qp(), axis), (QpIk::new(numerical, 1).unwrap(), links)] {
+        let query = IkQuery { clearance: Some(&checker), ..IkQuery::new(&foot, &HOME) };
+        let outcome = solver.solve(&robot, &query).unwrap();
+        assert_eq!(outcome.status, IkStatus::Infeasible);
+        assert_eq!(outcome.contact, checker.contact(&outcome.joints));
+        let reason = outcome.reason.unwrap();
+        assert!(reason.contains(told), "{reason}");
+    }
+    // What a closed hand meets there, when the foot is thicker, is told as well.
+    let post = Obstacle::Solid(Solid {
+        part: "post".into(),
+        shape: Shape::Capsule { radius_m: 0.1, length_m: 0.3 },
+        pose: Pose::from(foot.translation),
+    });
+    let checker = Checker::new(&robot, Margins::default(), &[post], 0.05);
+    let query = IkQuery { clearance: Some(&checker), ..IkQuery::new(&foot, &HOME) };
+    let outcome = qp().solve(&robot, &query).unwrap();
+    let reason = outcome.reason.unwrap();
+    assert!(reason.contains("in that posture") && reason.contains("post"), "{reason}");
 }
 
 #[test]

@@ -6,7 +6,6 @@
 
 mod servo;
 
-use nalgebra::DVector;
 use seeone_core::robot::RobotModel;
 use seeone_plugin::{
     Action, Felt, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample, RobotState,
@@ -19,8 +18,6 @@ use std::sync::Arc;
 
 /// The first command may be this far from where the joints are, radians.
 const START_TOLERANCE_RAD: f64 = 0.02;
-/// A position limit may be passed by rounding only, radians.
-const LIMIT_TOLERANCE_RAD: f64 = 1e-6;
 /// The slowest grip takes this long, seconds: full stroke at the gripper's speed, twice.
 const GRIP_LIMIT_S: f64 = 4.0;
 /// Frames between two samples for the watcher: thirty a second.
@@ -81,40 +78,6 @@ impl SimulatedArm {
         Ok(arm)
     }
 
-    fn check(&self, trajectory: &JointTrajectory) -> Result<(), PluginError> {
-        let refuse = |what: String| Err(PluginError::Input(what));
-        if !(trajectory.period_s.is_finite() && trajectory.period_s > 0.0) {
-            return refuse(format!("a sample period of {} s", trajectory.period_s));
-        }
-        let Some(first) = trajectory.positions.first() else {
-            return refuse("an empty trajectory".into());
-        };
-        for (index, sample) in trajectory.positions.iter().enumerate() {
-            if sample.len() != self.joints.len() {
-                return refuse(format!("sample {index} has {} joints", sample.len()));
-            }
-            for (value, joint) in sample.iter().zip(self.model.joints()) {
-                if !value.is_finite() {
-                    return refuse(format!("sample {index} of {} is not finite", joint.name()));
-                }
-                let low = joint.lower() - LIMIT_TOLERANCE_RAD;
-                let high = joint.upper() + LIMIT_TOLERANCE_RAD;
-                if *value < low || *value > high {
-                    return refuse(format!(
-                        "sample {index} takes {} to {value:.3} rad",
-                        joint.name()
-                    ));
-                }
-            }
-        }
-        let jump =
-            (DVector::from_column_slice(first) - DVector::from_column_slice(&self.joints)).amax();
-        if jump > START_TOLERANCE_RAD {
-            return refuse(format!("the trajectory starts {jump:.3} rad from where the arm is"));
-        }
-        Ok(())
-    }
-
     /// Follows a trajectory to its end or, with a force of contact in newtons, until the
     /// load of what is held has changed by so much or has slipped off the pads; says whether
     /// it has.
@@ -124,7 +87,7 @@ impl SimulatedArm {
         contact_n: Option<f64>,
         watch: &mut Watch,
     ) -> Result<bool, PluginError> {
-        self.check(trajectory)?;
+        trajectory.check_from(&self.model, &self.joints, START_TOLERANCE_RAD)?;
         if let Some(force_n) = contact_n
             && !(force_n.is_finite() && force_n > 0.0)
         {
@@ -156,15 +119,7 @@ impl SimulatedArm {
     }
 
     fn grip(&mut self, command: GripperCommand, watch: &mut Watch) -> Result<(), PluginError> {
-        match command {
-            GripperCommand::Close { force_n } if force_n.is_finite() && force_n > 0.0 => {
-                self.world.close_fingers(force_n)?;
-            }
-            GripperCommand::Open { opening_m } if opening_m.is_finite() && opening_m >= 0.0 => {
-                self.world.open_fingers(opening_m)?;
-            }
-            other => return Err(PluginError::Input(format!("{other:?} is no command to grip"))),
-        }
+        self.world.grip(command)?;
         let pose = self.model.tool_pose(&self.joints);
         for frame in 0..(GRIP_LIMIT_S / FRAME_S) as usize {
             self.world.advance(&pose)?;

@@ -146,7 +146,7 @@ impl Asked<'_> {
             times.push(time_us);
             let found = outcome.status == IkStatus::Solved;
             solved += usize::from(found);
-            touching += usize::from(outcome.contact.is_some());
+            touching += usize::from(found && outcome.contact.is_some());
             if found && !from_home {
                 near.clone_from(&outcome.joints);
             }

@@ -71,13 +71,7 @@ impl MyPlugin {
         contact_n: Option<f64>,
         watch: &mut Watch,
     ) -> Result<bool, PluginError> {
-        trajectory.check(&self.model).map_err(PluginError::Input)?;
-        let first = trajectory.positions.first().map_or(&[][..], |first| first);
-        let jump = first.iter().zip(&self.joints).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        if jump > self.start_tolerance_rad {
-            let told = format!("the trajectory starts {jump:.3} rad from where the arm is");
-            return Err(PluginError::Input(told));
-        }
+        trajectory.check_from(&self.model, &self.joints, self.start_tolerance_rad)?;
         let before = self.world.state()?;
         let frames = (trajectory.duration_s() / before.frame_s).ceil().max(1.0) as usize;
         for frame in 1..=frames {
@@ -96,15 +90,7 @@ impl MyPlugin {
     }
 
     fn grip(&mut self, command: GripperCommand, watch: &mut Watch) -> Result<(), PluginError> {
-        match command {
-            GripperCommand::Close { force_n } if force_n.is_finite() && force_n > 0.0 => {
-                self.world.close_fingers(force_n)?;
-            }
-            GripperCommand::Open { opening_m } if opening_m.is_finite() && opening_m >= 0.0 => {
-                self.world.open_fingers(opening_m)?;
-            }
-            other => return Err(PluginError::Input(format!("{other:?} is no command to grip"))),
-        }
+        self.world.grip(command)?;
         let frame_s = self.world.state()?.frame_s;
         for _ in 0..(GRIP_LIMIT_S / frame_s) as usize {
             self.frame(watch)?;

@@ -28,34 +28,32 @@ pub trait Callee: Send + Sync {
     }
 }
 
-impl<C: Callee + ?Sized> Callee for Arc<C> {
-    fn call(
-        &self,
-        method: Method,
-        request: &[u64],
-        lent: &[&dyn Callee],
-    ) -> Result<Vec<u64>, PluginError> {
-        (**self).call(method, request, lent)
-    }
+/// What leads to a callee answers as it does.
+macro_rules! forwarded {
+    ($($pointer:ty),+) => {$(
+        impl<C: Callee + ?Sized> Callee for $pointer {
+            fn call(
+                &self,
+                method: Method,
+                request: &[u64],
+                lent: &[&dyn Callee],
+            ) -> Result<Vec<u64>, PluginError> {
+                (**self).call(method, request, lent)
+            }
 
-    fn blame(&self, method: Method, error: PluginError) -> PluginError {
-        (**self).blame(method, error)
-    }
+            fn blame(&self, method: Method, error: PluginError) -> PluginError {
+                (**self).blame(method, error)
+            }
+        }
+    )+};
 }
+forwarded!(Arc<C>, &C);
 
-impl<C: Callee + ?Sized> Callee for &C {
-    fn call(
-        &self,
-        method: Method,
-        request: &[u64],
-        lent: &[&dyn Callee],
-    ) -> Result<Vec<u64>, PluginError> {
-        (**self).call(method, request, lent)
-    }
-
-    fn blame(&self, method: Method, error: PluginError) -> PluginError {
-        (**self).blame(method, error)
-    }
+/// `all` as what is lent for a call.
+pub(super) fn lend<'a, C: Callee + 'a>(
+    all: impl IntoIterator<Item = &'a C>,
+) -> Vec<&'a dyn Callee> {
+    all.into_iter().map(|one| one as &dyn Callee).collect()
 }
 
 /// The error of a method that a callee does not have.
@@ -152,8 +150,7 @@ unsafe extern "C" fn serve_lent(
     // SAFETY: the other side's records are valid for the call.
     unsafe {
         serve(method, request, lent, answer, message, |method, request, lent| {
-            let lent: Vec<&dyn Callee> = lent.iter().map(|one| one as &dyn Callee).collect();
-            callee.call(method, request, &lent)
+            callee.call(method, request, &lend(lent))
         })
     }
 }

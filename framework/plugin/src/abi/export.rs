@@ -1,6 +1,6 @@
 //! The library's side: Rust plugins behind tables.
 
-use super::callee::{Callee, Foreign, guarded, missing, serve};
+use super::callee::{Foreign, guarded, lend, missing, serve};
 use super::cells::Reader;
 use super::kinds::{Remote, SetupMessage, served};
 use super::message::Message;
@@ -153,8 +153,7 @@ impl Instance {
             Plugin::Encoding(_) => Err(missing()),
             Plugin::Transfer(plugin) => served::transfer(plugin.as_ref(), method, request, lent),
             Plugin::Kinematics(plugin) => {
-                let lent: Vec<&dyn Callee> = lent.iter().map(|one| one as &dyn Callee).collect();
-                served::kinematics(plugin.as_ref(), robot, method, request, &lent)
+                served::kinematics(plugin.as_ref(), robot, method, request, &lend(lent))
             }
             Plugin::Motion(plugin) => served::motion(plugin.as_ref(), robot, method, request, lent),
             Plugin::Robot(plugin) => served::robot(plugin.as_mut(), method, request, lent),

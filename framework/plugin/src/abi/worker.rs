@@ -6,7 +6,7 @@
 //! are moved, and what is lent is called through a channel, on the host's own thread, which is
 //! closed when the host has gone on.
 
-use super::callee::{Callee, Lasting, ask};
+use super::callee::{Callee, Lasting, ask, lend};
 use super::instance::{Named, create};
 use super::methods::Method;
 use super::table::Table;
@@ -223,9 +223,8 @@ fn work(table: &Table, instance: *mut c_void, job: Job) {
     let Job { method, request, lent, events } = job;
     let proxies: Vec<Proxy> =
         (0..lent).map(|index| Proxy { index, events: events.clone() }).collect();
-    let lent: Vec<&dyn Callee> = proxies.iter().map(|proxy| proxy as &dyn Callee).collect();
     // SAFETY: the instance lives, on this thread.
-    let answered = unsafe { ask(table.call, instance, method, &request, &lent) };
+    let answered = unsafe { ask(table.call, instance, method, &request, &lend(&proxies)) };
     // The caller may have gone on.
     _ = events.send(Event::Done(answered));
 }

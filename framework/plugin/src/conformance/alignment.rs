@@ -67,12 +67,12 @@ pub fn alignment(plugin: &dyn Alignment) -> Result<(), Violation> {
 fn finds_what_is_there(plugin: &dyn Alignment, truth: &Similarity) -> Result<(), Violation> {
     let rule = "an exact similarity is found";
     let pairs = Pairs::new(truth, 0.0);
-    let found = answered(rule, plugin.align(&pairs.view(None)))?;
+    let found = answered(rule, || plugin.align(&pairs.view(None)))?;
     let error = apart(&pairs, &found.transform, truth);
     hold(rule, error < SAME, || format!("points are {error:.2e} off"))?;
 
     let rule = "a fixed scale is kept to the bit";
-    let found = answered(rule, plugin.align(&pairs.view(Some(0.3))))?;
+    let found = answered(rule, || plugin.align(&pairs.view(Some(0.3))))?;
     let scale = found.transform.scaling();
     hold(rule, scale == 0.3, || format!("asked for 0.3, got {scale}"))
 }
@@ -83,11 +83,11 @@ fn keeps_its_ranges_and_its_bytes(
 ) -> Result<(), Violation> {
     let rule = "finite in, finite and within its range out";
     let pairs = Pairs::new(truth, 0.004);
-    let found = answered(rule, plugin.align(&pairs.view(None)))?;
+    let found = answered(rule, || plugin.align(&pairs.view(None)))?;
     sound(rule, found.check())?;
 
     let rule = "the same input gives the same bytes";
-    let again = answered(rule, plugin.align(&pairs.view(None)))?;
+    let again = answered(rule, || plugin.align(&pairs.view(None)))?;
     hold(rule, bits(&found) == bits(&again), || format!("{found:?} and {again:?}"))
 }
 
@@ -117,8 +117,8 @@ fn follows_the_target(plugin: &dyn Alignment, truth: &Similarity) -> Result<(), 
     let motion: Pose = Isometry3::new(Vector3::new(-0.7, 0.3, 0.5), Vector3::new(0.3, 1.9, -0.8));
     let mut moved = Pairs::new(truth, 0.004);
     moved.target.iter_mut().for_each(|p| *p = motion * *p);
-    let before = answered(rule, plugin.align(&pairs.view(None)))?.transform;
-    let after = answered(rule, plugin.align(&moved.view(None)))?.transform;
+    let before = answered(rule, || plugin.align(&pairs.view(None)))?.transform;
+    let after = answered(rule, || plugin.align(&moved.view(None)))?.transform;
     let error = apart(&pairs, &after, &(motion * before));
     hold(rule, error < SAME, || format!("points are {error:.2e} apart"))
 }
@@ -135,32 +135,31 @@ fn refuses_what_is_wrong(plugin: &dyn Alignment, truth: &Similarity) -> Result<(
         pairs.target.truncate(n);
         pairs.weights.truncate(n);
     };
-    refused("no pairs are refused", broken(&|p| cut(p, 0)))?;
-    refused("one pair is refused", broken(&|p| cut(p, 1)))?;
-    refused("two pairs are refused", broken(&|p| cut(p, 2)))?;
+    refused("no pairs are refused", || broken(&|p| cut(p, 0)))?;
+    refused("one pair is refused", || broken(&|p| cut(p, 1)))?;
+    refused("two pairs are refused", || broken(&|p| cut(p, 2)))?;
     for few in [3, 4] {
         let rule = "few pairs are answered or refused";
-        answered_or_refused(rule, broken(&|p| cut(p, few)), AlignmentOutcome::check)?;
+        answered_or_refused(rule, || broken(&|p| cut(p, few)), AlignmentOutcome::check)?;
     }
-    refused("a missing target is refused", broken(&|p| p.target.truncate(79)))?;
-    refused("a missing weight is refused", broken(&|p| p.weights.truncate(79)))?;
-    refused("a NaN source is refused", broken(&|p| p.source[7].y = f64::NAN))?;
-    refused("an infinite target is refused", broken(&|p| p.target[7].z = f64::INFINITY))?;
-    refused("a NaN weight is refused", broken(&|p| p.weights[7] = f64::NAN))?;
-    refused("a negative weight is refused", broken(&|p| p.weights[7] = -1.0))?;
-    refused("weights of zero are refused", broken(&|p| p.weights.fill(0.0)))?;
-    refused(
-        "collinear points are refused",
+    refused("a missing target is refused", || broken(&|p| p.target.truncate(79)))?;
+    refused("a missing weight is refused", || broken(&|p| p.weights.truncate(79)))?;
+    refused("a NaN source is refused", || broken(&|p| p.source[7].y = f64::NAN))?;
+    refused("an infinite target is refused", || broken(&|p| p.target[7].z = f64::INFINITY))?;
+    refused("a NaN weight is refused", || broken(&|p| p.weights[7] = f64::NAN))?;
+    refused("a negative weight is refused", || broken(&|p| p.weights[7] = -1.0))?;
+    refused("weights of zero are refused", || broken(&|p| p.weights.fill(0.0)))?;
+    refused("collinear points are refused", || {
         broken(&|p| {
             for (i, (source, target)) in p.source.iter_mut().zip(&mut p.target).enumerate() {
                 *source = Point3::new(0.01 * i as f64, 0.0, 0.0);
                 *target = truth * *source;
             }
-        }),
-    )?;
+        })
+    })?;
     for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let rule = "a fixed scale that is not positive is refused";
-        refused(rule, plugin.align(&whole().view(Some(scale))))?;
+        refused(rule, || plugin.align(&whole().view(Some(scale))))?;
     }
     Ok(())
 }

@@ -3,8 +3,9 @@
 //!
 //! A suite knows nothing of the plugin: it brings its own clouds, fields, kinematics
 //! ([`Descent`]), arm ([`arm()`]) and world ([`StillWorld`]), so that a plugin is tested without
-//! any other. That a plugin answers at all in time is the loader's business: one that hangs is
-//! left alone.
+//! any other. Every answer must come within the time that a host waits; whoever may be asked to end
+//! early (a robot by its watcher and by `stop`, a planner by its kinematics) must. One that never answers is the
+//! loader's business, which leaves it alone.
 
 pub mod alignment;
 pub mod arm;

@@ -1,15 +1,16 @@
 //! The rules of kind `motion`.
 
 use super::arm::{Descent, arm};
-use super::violation::{Violation, answered, answered_or_refused, hold, refused, sound};
+use super::violation::{Violation, answered, answered_or_refused, cancelled, hold, refused, sound};
 use crate::motion::Obstacle;
 use crate::{
-    Action, GripperCommand, JointTrajectory, KeyPose, Motion, MotionOutcome, MotionTask,
-    PluginError, Program,
+    Action, GripperCommand, IkOutcome, IkQuery, JointTrajectory, KeyPose, Kinematics, Motion,
+    MotionOutcome, MotionTask, PluginError, Program,
 };
 use seeone_core::Pose;
 use seeone_core::pose::difference;
 use seeone_core::robot::RobotModel;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How far apart the end of one move and the start of the next may be, radians.
 const JOINED_RAD: f64 = 1e-6;
@@ -46,23 +47,24 @@ pub fn motion(plugin: &dyn Motion) -> Result<(), Violation> {
     for count in 1..=keys.len() {
         goes_where_it_is_told(plugin, &robot, &keys[..count])?;
     }
+    ends_with_its_kinematics(plugin, &robot, &keys)?;
     let ask = |keys: &[KeyPose], start: &[f64]| plan(plugin, &robot, keys, start);
     let rule = "a task without key poses is answered or refused";
-    answered_or_refused(rule, ask(&[], robot.home()), |outcome| outcome.check(&robot))?;
+    answered_or_refused(rule, || ask(&[], robot.home()), |outcome| outcome.check(&robot))?;
 
     let rule = "what is out of reach is infeasible, with its stage and a reason";
     let far = KeyPose { pose: Pose::translation(10.0, 0.0, 0.5), ..keys[1].clone() };
-    let outcome = answered(rule, ask(&[keys[0].clone(), far], robot.home()))?;
+    let outcome = answered(rule, || ask(&[keys[0].clone(), far], robot.home()))?;
     let said = matches!(&outcome, MotionOutcome::Infeasible { stage, .. } if stage == "put");
     hold(rule, said, || format!("{outcome:?}"))?;
     sound(rule, outcome.check(&robot))?;
 
     for length in [0, 1, robot.joints().len() + 1] {
-        refused("a start of another length is refused", ask(&keys, &vec![0.1; length]))?;
+        refused("a start of another length is refused", || ask(&keys, &vec![0.1; length]))?;
     }
-    refused("a start outside the limits is refused", ask(&keys, &[9.0; 6]))?;
+    refused("a start outside the limits is refused", || ask(&keys, &[9.0; 6]))?;
     let nowhere = KeyPose { pose: Pose::translation(f64::NAN, 0.0, 0.0), ..keys[0].clone() };
-    refused("a pose that is not finite is refused", ask(&[nowhere], robot.home()))
+    refused("a pose that is not finite is refused", || ask(&[nowhere], robot.home()))
 }
 
 fn plan(
@@ -71,8 +73,59 @@ fn plan(
     key_poses: &[KeyPose],
     start: &[f64],
 ) -> Result<MotionOutcome, PluginError> {
+    plan_with(plugin, &Descent::default(), robot, key_poses, start)
+}
+
+fn plan_with(
+    plugin: &dyn Motion,
+    kinematics: &dyn Kinematics,
+    robot: &RobotModel,
+    key_poses: &[KeyPose],
+    start: &[f64],
+) -> Result<MotionOutcome, PluginError> {
     let task = MotionTask { start, holding: false, carried: &[], key_poses, obstacles: &[MAT] };
-    plugin.plan(robot, &Descent::default(), &task)
+    plugin.plan(robot, kinematics, &task)
+}
+
+/// The suite's kinematics until they have been asked `left` times more; then the caller wants an
+/// end.
+struct Interrupted {
+    left: AtomicUsize,
+    late: AtomicUsize,
+}
+
+impl Kinematics for Interrupted {
+    fn solve(&self, robot: &RobotModel, query: &IkQuery) -> Result<IkOutcome, PluginError> {
+        let goes_on = |left: usize| left.checked_sub(1);
+        match self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, goes_on) {
+            Ok(_) => Descent::default().solve(robot, query),
+            Err(_) => {
+                self.late.fetch_add(1, Ordering::Relaxed);
+                Err(PluginError::Cancelled)
+            }
+        }
+    }
+}
+
+/// However far it has come.
+fn ends_with_its_kinematics(
+    plugin: &dyn Motion,
+    robot: &RobotModel,
+    keys: &[KeyPose],
+) -> Result<(), Violation> {
+    let asked = Interrupted { left: AtomicUsize::new(usize::MAX), late: AtomicUsize::new(0) };
+    let rule = "near key poses are planned for";
+    answered(rule, || plan_with(plugin, &asked, robot, keys, robot.home()))?;
+    let all = usize::MAX - asked.left.into_inner();
+    for left in [0, all / 2, all.saturating_sub(1)] {
+        let asked = Interrupted { left: AtomicUsize::new(left), late: AtomicUsize::new(0) };
+        let rule = "a plan ends with the error of its kinematics";
+        cancelled(rule, || plan_with(plugin, &asked, robot, keys, robot.home()))?;
+        let late = asked.late.into_inner();
+        let rule = "kinematics that want an end are asked no more";
+        hold(rule, late == 1, || format!("{late} times after {left} of {all}"))?;
+    }
+    Ok(())
 }
 
 fn goes_where_it_is_told(
@@ -81,13 +134,13 @@ fn goes_where_it_is_told(
     keys: &[KeyPose],
 ) -> Result<(), Violation> {
     let rule = "near key poses are planned for";
-    let outcome = answered(rule, plan(plugin, robot, keys, robot.home()))?;
+    let outcome = answered(rule, || plan(plugin, robot, keys, robot.home()))?;
     let MotionOutcome::Planned { program, .. } = &outcome else {
         return Err(Violation { rule, detail: format!("{outcome:?}") });
     };
     sound("finite in, finite and within the limits out", outcome.check(robot))?;
     let rule = "the same input gives the same bytes";
-    let again = answered(rule, plan(plugin, robot, keys, robot.home()))?;
+    let again = answered(rule, || plan(plugin, robot, keys, robot.home()))?;
     hold(rule, outcome == again, || "two plans differ".into())?;
     is_in_one_piece(robot, program)?;
 

@@ -1,6 +1,6 @@
 //! The rules of kind `robot`.
 
-use super::violation::{Violation, answered, hold, refused, sound};
+use super::violation::{Violation, answered, cancelled, hold, refused, sound};
 use crate::{Action, Felt, GripperCommand, JointTrajectory, PluginError, Robot, RobotSample};
 use seeone_core::robot::RobotModel;
 
@@ -19,45 +19,47 @@ pub fn robot(
     build: &dyn Fn() -> Result<Box<dyn Robot>, PluginError>,
 ) -> Result<(), Violation> {
     let rule = "a robot can be built";
-    let mut first = answered(rule, build())?;
-    let mut second = answered(rule, build())?;
+    let mut first = answered(rule, build)?;
+    let mut second = answered(rule, build)?;
     let done = carries_out(model, first.as_mut())?;
     let again = carries_out(model, second.as_mut())?;
     let rule = "the same actions give the same samples";
     hold(rule, done == again, || "two executions differ".into())?;
     let rule = "a robot can be built";
-    refuses_what_is_wrong(model, answered(rule, build())?.as_mut())?;
-    stops(model, answered(rule, build())?.as_mut())
+    refuses_what_is_wrong(model, answered(rule, build)?.as_mut())?;
+    stops(model, answered(rule, build)?.as_mut())
 }
 
 /// Ends when the watcher asks for it, stands when it is told to, and goes on from there.
 fn stops(model: &RobotModel, robot: &mut dyn Robot) -> Result<(), Violation> {
     let rule = "the state is the robot's";
-    let start = answered(rule, robot.state())?.joints;
+    let start = answered(rule, || robot.state())?.joints;
     let there = moving(&start, -0.1, 200);
     let mut seen = 0;
-    let told = robot.execute(&Action::Move(there.clone()), &mut |_| {
-        seen += 1;
-        if seen < 10 { Ok(()) } else { Err(PluginError::Cancelled) }
-    });
     let rule = "an action ends when the watcher asks for it, with the watcher's error";
-    hold(rule, told == Err(PluginError::Cancelled), || format!("{told:?}"))?;
+    cancelled(rule, || {
+        robot.execute(&Action::Move(there.clone()), &mut |_| {
+            seen += 1;
+            if seen < 10 { Ok(()) } else { Err(PluginError::Cancelled) }
+        })
+    })?;
     hold(rule, seen == 10, || format!("{seen} samples, the end asked for at the tenth"))?;
     let rule = "a robot that was interrupted is on its way, and not at its end";
-    let interrupted = answered(rule, robot.state())?.joints;
+    let interrupted = answered(rule, || robot.state())?.joints;
     let off =
         |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let (gone, left) = (off(&interrupted, &start), off(&interrupted, &there.positions[199]));
     hold(rule, gone < 0.05 && left > 0.05, || format!("{gone:.3} rad gone, {left:.3} left"))?;
 
     let rule = "a robot that is stopped holds its position";
-    answered(rule, robot.stop())?;
-    let stopped = answered(rule, robot.state())?.joints;
+    answered(rule, || robot.stop())?;
+    let stopped = answered(rule, || robot.state())?.joints;
     hold(rule, stopped == interrupted, || format!("from {interrupted:?} to {stopped:?}"))?;
     let rule = "a robot that was stopped goes on from there";
-    let told = robot.execute(&Action::Move(moving(&stopped, 0.05, 100)), &mut |_| Ok(()));
-    sound(rule, answered(rule, told)?.check())?;
-    sound(rule, answered(rule, robot.state())?.check(Some(model.joints().len())))
+    let onward = Action::Move(moving(&stopped, 0.05, 100));
+    let told = answered(rule, || robot.execute(&onward, &mut |_| Ok(())))?;
+    sound(rule, told.check())?;
+    sound(rule, answered(rule, || robot.state())?.check(Some(model.joints().len())))
 }
 
 /// A slow move from `from` by `turn` radians of every joint, in `samples` samples.
@@ -76,7 +78,7 @@ fn carries_out(
 ) -> Result<(Vec<RobotSample>, Vec<Felt>), Violation> {
     let joints = Some(model.joints().len());
     let rule = "the state is the robot's";
-    let start = answered(rule, robot.state())?;
+    let start = answered(rule, || robot.state())?;
     sound(rule, start.check(joints))?;
 
     let mut seen: Vec<RobotSample> = Vec::new();
@@ -90,11 +92,12 @@ fn carries_out(
         Action::Grip(GripperCommand::Open { opening_m: 0.02 }),
     ] {
         let rule = "what can be done is done";
-        let told = robot.execute(&action, &mut |sample| {
-            seen.push(sample.clone());
-            Ok(())
-        });
-        let told = answered(rule, told)?;
+        let told = answered(rule, || {
+            robot.execute(&action, &mut |sample| {
+                seen.push(sample.clone());
+                Ok(())
+            })
+        })?;
         sound("what is felt is finite", told.check())?;
         felt.push(told);
     }
@@ -106,15 +109,16 @@ fn carries_out(
     hold(rule, seen.is_sorted_by_key(|sample| sample.time_s), || "out of order".into())?;
 
     let rule = "the robot is where it was sent";
-    let end = answered(rule, robot.state())?;
+    let end = answered(rule, || robot.state())?;
     let off = end.joints.iter().zip(&goal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     hold(rule, off < ARRIVED_RAD, || format!("{off:.3} rad off"))?;
     Ok((seen, felt))
 }
 
 fn refuses_what_is_wrong(model: &RobotModel, robot: &mut dyn Robot) -> Result<(), Violation> {
-    let start = answered("the state is the robot's", robot.state())?.joints;
-    let mut hears = |rule, action: Action| refused(rule, robot.execute(&action, &mut |_| Ok(())));
+    let start = answered("the state is the robot's", || robot.state())?.joints;
+    let mut hears =
+        |rule, action: Action| refused(rule, || robot.execute(&action, &mut |_| Ok(())));
     let mut follows = |rule, spoil: &dyn Fn(&mut JointTrajectory)| {
         let mut trajectory = moving(&start, 0.0, 20);
         spoil(&mut trajectory);
@@ -138,7 +142,7 @@ fn refuses_what_is_wrong(model: &RobotModel, robot: &mut dyn Robot) -> Result<()
     }
     // What is refused moves nothing.
     let rule = "what is refused moves nothing";
-    let still = answered(rule, robot.state())?.joints;
+    let still = answered(rule, || robot.state())?.joints;
     hold(rule, still == start, || format!("from {start:?} to {still:?}"))?;
     sound(rule, if model.within_limits(&still) { Ok(()) } else { Err(format!("{still:?}")) })
 }

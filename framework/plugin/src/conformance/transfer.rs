@@ -109,16 +109,16 @@ impl Scene {
 pub fn transfer(plugin: &dyn Transfer) -> Result<(), Violation> {
     let rule = "finite in, finite and within its range out";
     let scene = Scene::with_rise(0.04);
-    let found = answered(rule, plugin.transfer(&scene.task()))?;
+    let found = answered(rule, || plugin.transfer(&scene.task()))?;
     hold("there is always a candidate", !found.is_empty(), || "none".into())?;
     sound(rule, check_candidates(&found))?;
 
     let rule = "the same input gives the same bytes";
-    let again = answered(rule, plugin.transfer(&scene.task()))?;
+    let again = answered(rule, || plugin.transfer(&scene.task()))?;
     hold(rule, format!("{found:?}") == format!("{again:?}"), || format!("{found:?} / {again:?}"))?;
 
     let rule = "the demonstrated pose on the demonstrated object is kept";
-    let same = answered(rule, plugin.transfer(&Scene::with_rise(0.0).task()))?;
+    let same = answered(rule, || plugin.transfer(&Scene::with_rise(0.0).task()))?;
     let moved = (same[0].pose.translation.vector - scene.demonstrated.translation.vector).norm();
     hold(rule, moved < 0.01, || format!("moved by {moved:.4} of the cube"))?;
 
@@ -133,27 +133,29 @@ fn refuses_what_is_wrong(plugin: &dyn Transfer) -> Result<(), Violation> {
     };
     answered_or_refused(
         "a cloud of one point is answered or refused",
-        broken(&|s| {
-            s.cloud.points.truncate(1);
-            s.cloud.nocs.truncate(1);
-            s.cloud.confidence.truncate(1);
-        }),
+        || {
+            broken(&|s| {
+                s.cloud.points.truncate(1);
+                s.cloud.nocs.truncate(1);
+                s.cloud.confidence.truncate(1);
+            })
+        },
         |found| check_candidates(found),
     )?;
-    refused("an empty cloud is refused", broken(&|s| s.cloud = CanonicalCloud::default()))?;
-    refused("a cloud without coordinates is refused", broken(&|s| s.cloud.nocs.clear()))?;
-    refused("a NaN coordinate is refused", broken(&|s| s.cloud.nocs[3].x = f64::NAN))?;
-    refused("a NaN confidence is refused", broken(&|s| s.cloud.confidence[3][1] = f64::NAN))?;
-    refused("a NaN pose is refused", broken(&|s| s.demonstrated.translation.x = f64::NAN))?;
-    refused("a NaN gripper point is refused", broken(&|s| s.gripper_points[0].z = f64::NAN))?;
-    refused("a gripper without points is refused", broken(&|s| s.gripper_points.clear()))?;
+    refused("an empty cloud is refused", || broken(&|s| s.cloud = CanonicalCloud::default()))?;
+    refused("a cloud without coordinates is refused", || broken(&|s| s.cloud.nocs.clear()))?;
+    refused("a NaN coordinate is refused", || broken(&|s| s.cloud.nocs[3].x = f64::NAN))?;
+    refused("a NaN confidence is refused", || broken(&|s| s.cloud.confidence[3][1] = f64::NAN))?;
+    refused("a NaN pose is refused", || broken(&|s| s.demonstrated.translation.x = f64::NAN))?;
+    refused("a NaN gripper point is refused", || broken(&|s| s.gripper_points[0].z = f64::NAN))?;
+    refused("a gripper without points is refused", || broken(&|s| s.gripper_points.clear()))?;
     let scene = Scene::with_rise(0.0);
     for scale in [0.0, -0.2, f64::NAN] {
         let rule = "a scale that is not positive is refused";
         let task = TransferTask { instance_scale: scale, ..scene.task() };
-        refused(rule, plugin.transfer(&task))?;
+        refused(rule, || plugin.transfer(&task))?;
         let task = TransferTask { demonstrated_scale: scale, ..scene.task() };
-        refused(rule, plugin.transfer(&task))?;
+        refused(rule, || plugin.transfer(&task))?;
     }
     Ok(())
 }

@@ -6,6 +6,10 @@ use crate::plugins::Plugins;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+/// What is told of a robot that does not answer.
+pub(super) const UNREACHABLE: &str =
+    "the robot may be moving and where it is is not known, so use its emergency stop";
+
 /// What the caller hands in.
 pub struct Hooks {
     /// Seconds of any clock that only goes forward; for the report's timings alone.
@@ -59,12 +63,13 @@ impl Bench {
         &self.hooks.cancel
     }
 
-    /// Stops the robot after a run that failed. One that does not answer is told of.
+    /// Stops the robot after a run that failed. One that does not answer is told of: nothing here can
+    /// reach it any more.
     pub(super) fn stop_robot(&mut self) {
         let robot = &mut self.plugins.robot;
         let stopped = guarded(|| robot.stop().map_err(|e| e.to_string()));
         if let Err(reason) = stopped {
-            let reason = Some(format!("the robot may be moving: {reason}"));
+            let reason = Some(format!("{UNREACHABLE}: {reason}"));
             self.tell(StageEvent { name: "stop".into(), ok: false, seconds: 0.0, reason });
         }
     }

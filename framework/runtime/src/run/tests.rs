@@ -1,5 +1,6 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+use super::bench::UNREACHABLE;
 use super::*;
 use crate::fakes::{Behaviour, FakeCell};
 use crate::files::Stage;
@@ -377,14 +378,14 @@ fn the_robot_is_stopped_when_a_run_fails_and_told_of_when_it_does_not_answer() {
         let stop = outcome.stages.iter().find(|stage| stage.name == "stop");
         stop.and_then(|stop| stop.reason.clone())
     };
-    let expected = Some("the robot may be moving: internal fault: broken stop".to_owned());
+    let expected = Some(format!("{UNREACHABLE}: internal fault: broken stop"));
     let missed = finished(&cell, Behaviour { misses: 9, ..deaf }).outcome;
     assert_eq!(missed.failed_at.as_deref(), Some("pick"));
     assert_eq!(told(&missed), expected);
     assert_eq!(told(&interrupted(&cell, deaf, "pick")), expected);
     let panicking = finished(&cell, Behaviour { misses: 9, panics: true, ..deaf }).outcome;
-    let expected = "the robot may be moving: a plugin panicked: broken stop";
-    assert_eq!(told(&panicking).as_deref(), Some(expected));
+    let expected = Some(format!("{UNREACHABLE}: a plugin panicked: broken stop"));
+    assert_eq!(told(&panicking), expected);
     assert_eq!(told(&finished(&cell, deaf).outcome), None, "nothing failed");
 }
 

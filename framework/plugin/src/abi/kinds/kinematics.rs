@@ -2,7 +2,7 @@
 
 use super::clearance::ClearanceCallee;
 use super::{Remote, robot};
-use crate::abi::callee::{Callee, missing, not_answered};
+use crate::abi::callee::{Callee, lend, missing, not_answered};
 use crate::abi::cells::{Put, Reader, Take, fields, message};
 use crate::abi::methods::Method;
 use crate::{Clearance, IkOutcome, IkQuery, IkStatus, Kinematics, PluginError};
@@ -48,7 +48,7 @@ impl<C: Callee> Kinematics for Remote<C> {
         let sent = self.unknown(robot);
         let request = message(&[&sent, target, &near, &continuous, &period_s]);
         let clearance = clearance.map(ClearanceCallee);
-        let lent: Vec<&dyn Callee> = clearance.iter().map(|one| one as &dyn Callee).collect();
+        let lent = lend(&clearance);
         let sound = |outcome: &IkOutcome| outcome.check(robot);
         self.ask(Method::Solve, &request, &lent, sound)
     }

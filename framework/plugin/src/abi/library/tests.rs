@@ -14,7 +14,7 @@ use std::sync::mpsc::channel;
 use std::thread;
 
 /// How long the tests wait for a plugin.
-const PATIENCE: Duration = Duration::from_millis(400);
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A plugin that does what its table of the configuration says.
 enum Fake {
@@ -203,7 +203,7 @@ fn a_panic_is_an_error_and_the_host_goes_on() {
 fn a_plugin_that_hangs_is_left_alone() {
     let plugin = loaded(sound(), "do = 'hang'", 3).expect("built");
     let told = align(&plugin).expect_err("a hang").to_string();
-    assert!(told.ends_with("in \"align\": no sign of life for 0.4 s; it is left alone"), "{told}");
+    assert!(told.ends_with("in \"align\": no sign of life for 2 s; it is left alone"), "{told}");
     let again = align(&plugin).expect_err("left alone").to_string();
     assert!(again.contains("left alone since it gave no answer"), "{again}");
     let told = loaded(sound(), "do = 'hang at once'", 3).expect_err("refused").to_string();
