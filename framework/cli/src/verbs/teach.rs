@@ -32,6 +32,9 @@ const PITCH_DEG: f64 = 2.0;
 /// Grip force, newtons, of the 45 to 160 that an AG-95 has: enough to hold a visor flat
 /// between pads that come at it from above its plane.
 const GRIP_N: f64 = 140.0;
+/// The hand comes so far open around a visor, metres: where it is not seen, it is told some 15 mm
+/// off.
+const OPENING_M: f64 = 0.045;
 /// A cloud of more points is thinned to about so many.
 const CLOUD_POINTS: usize = 4096;
 /// How far from where the shown one lay an object may lie, metres and degrees: what the perception
@@ -210,6 +213,7 @@ fn missing(scene: &Scene, what: &str) -> Diagnostic {
 fn pick(taken: Pose) -> Stage {
     Stage {
         approach_m: 0.10,
+        opening_m: OPENING_M,
         gripper: Some(GripperCommand::Close { force_n: GRIP_N }),
         lift_m: 0.25,
         turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,

@@ -34,6 +34,8 @@ pub struct Acted {
     pub carried_out: bool,
     /// How often the robot reached for the object.
     pub tries: usize,
+    /// How often the hand closed on nothing and looked again.
+    pub missed: usize,
 }
 
 impl Acted {
@@ -85,7 +87,10 @@ pub(super) fn act(
             ended.unwrap_or_else(|reason| Err(Failed { stage: Step::Act.name().into(), reason }));
         match ended {
             Ok(Ended::Done) => acted.carried_out = true,
-            Ok(Ended::Missed) => _ = commands.entity(run).insert(Again),
+            Ok(Ended::Missed) => {
+                acted.missed += 1;
+                commands.entity(run).insert(Again);
+            }
             Err(failed) => {
                 let (name, reason) = (failed.stage.clone(), Some(failed.reason.clone()));
                 bench.tell(StageEvent { name, ok: false, seconds: 0.0, reason });

@@ -1,5 +1,6 @@
 //! From grasps to a program: the best grasp that the robot can carry through to the end.
 
+use super::act::Acted;
 use super::assignment::Assignment;
 use super::bench::Bench;
 use super::hull::Hull;
@@ -20,6 +21,10 @@ use seeone_plugin::{KeyPose, MotionOutcome, MotionTask, Program};
 const MOST_GRASPS: usize = 3;
 /// The whole retreat may be out of reach: so much of it is tried, one after the other.
 pub(super) const RETREAT_SHARES: [f64; 5] = [1.0, 0.75, 0.5, 0.2, 0.1];
+
+/// After each time that the hand closed on nothing, it opens wider by so much of what was shown:
+/// what it should have taken was not between the pads, but is not far from them.
+const WIDER: f64 = 0.5;
 
 /// What the robot shall do.
 #[derive(Component, Clone, Debug, PartialEq)]
@@ -42,26 +47,36 @@ pub struct Planned {
 pub(super) fn plan(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Seen, &Transferred), Without<Failed>>,
+    runs: Query<(Entity, &Assignment, &Seen, &Transferred, Option<&Acted>), Without<Failed>>,
 ) {
-    for (run, assignment, seen, transferred) in &runs {
+    for (run, assignment, seen, transferred, acted) in &runs {
         let hull = Hull::of(&seen.0.cloud);
-        let planned =
-            bench.step(Step::Plan, |plugins| planned(plugins, assignment, transferred, &hull));
+        let opening_m = opening(assignment, acted.map_or(0, |acted| acted.missed));
+        let planned = bench.step(Step::Plan, |plugins| {
+            planned(plugins, assignment, transferred, &hull, opening_m)
+        });
         leave(&mut commands, run, planned);
     }
 }
 
-/// A program with as much of the retreats as will do.
+/// How wide the hand is open as it comes to take the object that it has `missed` so often.
+fn opening(assignment: &Assignment, missed: usize) -> f64 {
+    let shown_m = assignment.skill.stages[0].opening_m;
+    let widest_m = assignment.robot.gripper().stroke_m();
+    (shown_m * (1.0 + WIDER * missed as f64)).min(widest_m.max(shown_m))
+}
+
+/// A program with as much of the retreats as will do, by a hand `opening_m` open.
 fn planned(
     plugins: &mut Plugins,
     assignment: &Assignment,
     transferred: &Transferred,
     hull: &Hull,
+    opening_m: f64,
 ) -> Result<Planned, String> {
     let mut refused = String::new();
     for share in RETREAT_SHARES {
-        match with_retreats(plugins, assignment, transferred, hull, share)? {
+        match with_retreats(plugins, assignment, transferred, hull, opening_m, share)? {
             Ok(planned) => return Ok(planned),
             // What stands in the way of the whole retreats says most.
             Err(reason) if refused.is_empty() => refused = reason,
@@ -79,6 +94,7 @@ fn with_retreats(
     assignment: &Assignment,
     transferred: &Transferred,
     hull: &Hull,
+    opening_m: f64,
     share: f64,
 ) -> Result<Result<Planned, String>, String> {
     let start = plugins.robot.state().map_err(|e| e.to_string())?.joints;
@@ -94,6 +110,7 @@ fn with_retreats(
                 break;
             }
             let mut key_poses = key_poses(assignment, transferred, grasp, turn);
+            key_poses[0].opening_m = opening_m;
             key_poses.iter_mut().for_each(|key| key.retreat_m *= share);
             let carried = hull.in_the_hand(&key_poses);
             let task = MotionTask {

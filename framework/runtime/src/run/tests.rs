@@ -185,6 +185,24 @@ fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
 }
 
 #[test]
+fn a_hand_that_closed_on_nothing_opens_wider_as_far_as_it_can() {
+    let cell = FakeCell::new();
+    let opened = |misses: usize| {
+        let mut assignment = cell.assignment();
+        assignment.tries = 9;
+        let behaviour = Behaviour { misses, ..Behaviour::default() };
+        let finished = run(assignment, cell.plugins(behaviour), Hooks::default());
+        finished.left::<Planned>().expect("a plan").key_poses[0].opening_m
+    };
+    let widest_m = cell.assignment().robot.gripper().stroke_m();
+    let shown_m = opened(0);
+    assert_eq!(shown_m, cell.assignment().skill.stages[0].opening_m);
+    for (misses, times) in [(1, 1.5), (2, 2.0), (8, 5.0)] {
+        assert!((opened(misses) - (times * shown_m).min(widest_m)).abs() < 1e-12);
+    }
+}
+
+#[test]
 fn what_does_not_lie_as_it_was_shown_is_taken_again() {
     let cell = FakeCell::with_result();
     let tried = |falls: usize, tries: usize| {
