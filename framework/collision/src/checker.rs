@@ -11,6 +11,9 @@ use seeone_plugin::{Clearance, Contact, Proximity};
 
 /// Distances are searched for and are right to less than this, metres.
 const ROUNDING_M: f64 = 1e-4;
+/// What is touched at an end may be so much deeper in what is carried on the way, metres: the
+/// hull of a hollow object is full.
+const DEEPER_M: f64 = 0.01;
 
 /// A body that stands in `world`.
 struct Standing {
@@ -83,15 +86,18 @@ impl<'a> Checker<'a> {
         let held = || self.bodies.iter().filter(|body| body.kind == Kind::Held);
         let least = |distance: &dyn Fn(&Placed) -> f64| {
             let at_ends = ends.iter().flat_map(|end| held().map(|body| body.shape.at(**end)));
-            let allowed = at_ends.map(|placed| distance(&placed) - ROUNDING_M);
-            allowed.fold(self.margins.carried_m, f64::min)
+            at_ends.map(|placed| distance(&placed)).fold(self.margins.carried_m, f64::min)
+        };
+        let beside = |nearest_m: f64| match nearest_m < 0.0 {
+            true => nearest_m - DEEPER_M,
+            false => nearest_m - ROUNDING_M,
         };
         Room {
             tables: (self.tables.iter())
-                .map(|(height, _)| least(&|placed| placed.lowest().z - height))
+                .map(|(height, _)| least(&|placed| placed.lowest().z - height) - ROUNDING_M)
                 .collect(),
             standing: (self.standing.iter())
-                .map(|standing| least(&|placed| placed.distance(&standing.placed())))
+                .map(|standing| beside(least(&|placed| placed.distance(&standing.placed()))))
                 .collect(),
         }
     }
