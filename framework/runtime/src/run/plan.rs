@@ -44,10 +44,14 @@ pub struct Planned {
     pub cost: f64,
 }
 
+/// What a plan is made of: a run, and what the robot did in it before, if it is not the first try.
+type ToPlan =
+    (Entity, &'static Assignment, &'static Seen, &'static Transferred, Option<&'static Acted>);
+
 pub(super) fn plan(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Seen, &Transferred, Option<&Acted>), Without<Failed>>,
+    runs: Query<ToPlan, Without<Failed>>,
 ) {
     for (run, assignment, seen, transferred, acted) in &runs {
         let hull = Hull::of(&seen.0.cloud);
