@@ -11,9 +11,9 @@ use seeone_plugin::{Clearance, Contact, Proximity};
 
 /// Distances are searched for and are right to less than this, metres.
 const ROUNDING_M: f64 = 1e-4;
-/// What is touched at an end may be so much deeper in what is carried on the way, metres: the
-/// hull of a hollow object is full.
-const DEEPER_M: f64 = 0.01;
+/// What is carried may come nearer by so much, on the way, to what it is brought near to, metres:
+/// the hull of a hollow object is full.
+const NEARER_M: f64 = 0.01;
 
 /// A body that stands in `world`.
 struct Standing {
@@ -84,20 +84,20 @@ impl<'a> Checker<'a> {
     /// may be near to all the way. From the rest it keeps its margin.
     pub fn room(&self, ends: [&Pose; 2]) -> Room {
         let held = || self.bodies.iter().filter(|body| body.kind == Kind::Held);
-        let least = |distance: &dyn Fn(&Placed) -> f64| {
+        let least = |nearer_m: f64, distance: &dyn Fn(&Placed) -> f64| {
             let at_ends = ends.iter().flat_map(|end| held().map(|body| body.shape.at(**end)));
-            at_ends.map(|placed| distance(&placed)).fold(self.margins.carried_m, f64::min)
-        };
-        let beside = |nearest_m: f64| match nearest_m < 0.0 {
-            true => nearest_m - DEEPER_M,
-            false => nearest_m - ROUNDING_M,
+            let nearest_m = at_ends.map(|placed| distance(&placed)).fold(f64::INFINITY, f64::min);
+            match nearest_m < self.margins.carried_m {
+                true => nearest_m - nearer_m,
+                false => self.margins.carried_m,
+            }
         };
         Room {
             tables: (self.tables.iter())
-                .map(|(height, _)| least(&|placed| placed.lowest().z - height) - ROUNDING_M)
+                .map(|(height, _)| least(ROUNDING_M, &|placed| placed.lowest().z - height))
                 .collect(),
             standing: (self.standing.iter())
-                .map(|standing| beside(least(&|placed| placed.distance(&standing.placed()))))
+                .map(|standing| least(NEARER_M, &|placed| placed.distance(&standing.placed())))
                 .collect(),
         }
     }
