@@ -62,8 +62,8 @@ fn a_skill_is_checked_beside_a_robot_and_a_scene() {
         let text = bench.text(SKILL);
         text.lines().position(|line| line.starts_with(start)).expect("a line") + 1
     };
-    // The pose of the stage `middle`, two lines below its name.
-    let place = format!("error[S030]: {skill}:{}:", line("name = \"middle\"") + 2);
+    // The pose of the stage `arrive`, two lines below its name.
+    let place = format!("error[S030]: {skill}:{}:", line("name = \"arrive\"") + 2);
     assert!(told.stderr.contains(&place), "{place} is not in {}", told.stderr);
     assert!(told.stderr.contains("beyond ur5-ag95-sim"), "{}", told.stderr);
     bench.set_line(TASK, "targets", "targets = { head = \"shelf\" }");
