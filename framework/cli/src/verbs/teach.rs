@@ -133,7 +133,7 @@ pub fn run(args: &TeachArgs) -> Result<Ending> {
         return Ok(Ending::Failure);
     }
     // Looked at as a run will: the hand is back where it waits.
-    let home = stage("look", RelativeTo::Object, robot.tool_pose(robot.home()));
+    let home = Stage::through("look", RelativeTo::Object, robot.tool_pose(robot.home()));
     let start = arm.state()?.joints;
     let look = MotionTask {
         start: &start,
@@ -217,24 +217,7 @@ fn pick(taken: Pose) -> Stage {
         gripper: Some(GripperCommand::Close { force_n: GRIP_N }),
         lift_m: 0.25,
         turn_about_closing_deg: Stage::TURN_ABOUT_CLOSING_DEG,
-        ..stage("pick", RelativeTo::Object, taken)
-    }
-}
-
-/// A pose that is passed through.
-fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
-    Stage {
-        name: name.to_owned(),
-        relative_to,
-        gripper_pose,
-        approach_m: 0.0,
-        opening_m: Stage::OPENING_M,
-        until_contact_n: None,
-        gripper: None,
-        retreat_m: 0.0,
-        lift_m: 0.0,
-        turn_about_closing_deg: 0.0,
-        onward: false,
+        ..Stage::through("pick", RelativeTo::Object, taken)
     }
 }
 

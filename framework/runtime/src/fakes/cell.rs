@@ -299,12 +299,7 @@ fn worn_on(head: &Pose, scale: f64) -> Similarity {
 fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
     let first = relative_to == RelativeTo::Object;
     Stage {
-        name: name.into(),
-        relative_to,
-        gripper_pose,
         approach_m: 0.1,
-        opening_m: 0.03,
-        until_contact_n: None,
         gripper: Some(if first {
             GripperCommand::Close { force_n: 20.0 }
         } else {
@@ -313,7 +308,7 @@ fn stage(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Stage {
         retreat_m: if first { 0.0 } else { 0.15 },
         lift_m: if first { 0.25 } else { 0.0 },
         turn_about_closing_deg: 90.0,
-        onward: false,
+        ..Stage::through(name, relative_to, gripper_pose)
     }
 }
 

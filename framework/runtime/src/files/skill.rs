@@ -111,6 +111,23 @@ impl Skill {
 }
 
 impl Stage {
+    /// A pose that is passed through: nothing is gripped, felt for or backed away from.
+    pub fn through(name: &str, relative_to: RelativeTo, gripper_pose: Pose) -> Self {
+        Self {
+            name: name.to_owned(),
+            relative_to,
+            gripper_pose,
+            approach_m: 0.0,
+            opening_m: Self::OPENING_M,
+            until_contact_n: None,
+            gripper: None,
+            retreat_m: 0.0,
+            lift_m: 0.0,
+            turn_about_closing_deg: 0.0,
+            onward: false,
+        }
+    }
+
     /// What a planner is asked for, with the tool frame at `pose` in `world` instead of where it
     /// was shown.
     pub fn key_pose(&self, pose: Pose) -> KeyPose {

@@ -29,19 +29,7 @@ mod tests {
     use seeone_core::pose::difference;
 
     fn stage(name: &str, pose: Pose, onward: bool) -> Stage {
-        Stage {
-            name: name.into(),
-            relative_to: RelativeTo::Frame("head".into()),
-            gripper_pose: pose,
-            approach_m: 0.0,
-            opening_m: Stage::OPENING_M,
-            until_contact_n: None,
-            gripper: None,
-            retreat_m: 0.0,
-            lift_m: 0.0,
-            turn_about_closing_deg: 0.0,
-            onward,
-        }
+        Stage { onward, ..Stage::through(name, RelativeTo::Frame("head".into()), pose) }
     }
 
     /// Down to a place, turned about a point beside it, drawn down; then to somewhere else.

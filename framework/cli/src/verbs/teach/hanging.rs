@@ -1,7 +1,7 @@
 //! Hanging: the cap is held by its visor, which points up, and its opening faces the wall. The
 //! peg goes in below the front panel, which then comes down on it.
 
-use super::{Lesson, grasp, missing, pick, stage};
+use super::{Lesson, grasp, missing, pick};
 use crate::simulated::SimulatedCell;
 use anyhow::{Result, anyhow};
 use nalgebra::{Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -41,7 +41,8 @@ pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
         let place = Translation3::from(inside + offset - turn * hem.coords);
         hook.pose * Pose::from_parts(place, turn) * held
     };
-    let on_hook = |name, offset| stage(name, RelativeTo::Frame("hook".to_owned()), at(offset));
+    let on_hook =
+        |name, offset| Stage::through(name, RelativeTo::Frame("hook".to_owned()), at(offset));
     let high = Vector3::z() * HIGH_M;
     Ok(Lesson {
         summary: "Pick a cap from the table and hang it on a hook.",

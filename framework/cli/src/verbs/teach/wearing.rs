@@ -1,6 +1,6 @@
 //! Wearing: the cap is pulled onto the head from behind as a hood is, turned level and drawn down.
 
-use super::{Lesson, TOLERANCE_D, grasp, missing, pick, stage};
+use super::{Lesson, TOLERANCE_D, grasp, missing, pick};
 use crate::simulated::SimulatedCell;
 use anyhow::Result;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -27,15 +27,15 @@ const ARRIVE: Over = Over { back_m: 0.210, height_m: 0.220, nose_up_deg: 25.0 };
 const BEHIND: Over = Over { back_m: 0.210, height_m: 0.150, nose_up_deg: 30.0 };
 /// ... which it is pulled onto as a hood is: mouth first, ...
 const HOOK: Over = Over { back_m: 0.140, height_m: 0.090, nose_up_deg: 60.0 };
-/// ... until the back of the head is in it, ...
+/// ... until the back of the head is in it.
 const COVER: Over = Over { back_m: 0.060, height_m: 0.040, nose_up_deg: 60.0 };
-/// ... as far as the head lets it, newtons.
+/// What it may meet before the back of the head is at its mouth, newtons.
 const PULL_N: f64 = 30.0;
 /// Then it is turned over the head, about its middle, which a cap slides around with the least
 /// resistance, until its nose is up by so much, degrees: step by step, for the hand goes from
 /// one key pose to the next on a chord; ...
 const TURNS: [(&str, f64); 3] = [("turn", 40.0), ("tip", 20.0), ("level", 2.0)];
-/// ... not against more than this, newtons.
+/// ... neither that nor the last of the pull against more than this, newtons.
 const MOST_N: f64 = 20.0;
 /// It is drawn down onto the head, metres at most, ...
 const DRAW_M: f64 = 0.055;
@@ -54,7 +54,7 @@ pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
         let shift = Translation3::new(0.0, -place.back_m, place.height_m);
         head * Pose::from_parts(shift, turn) * head.inverse() * worn
     };
-    let at_head = |name, pose| stage(name, RelativeTo::Frame("head".to_owned()), pose);
+    let at_head = |name, pose| Stage::through(name, RelativeTo::Frame("head".to_owned()), pose);
     let guarded =
         |name, place, most_n| Stage { until_contact_n: Some(most_n), ..at_head(name, over(place)) };
     let turned = |nose_up_deg: f64| {
