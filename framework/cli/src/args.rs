@@ -13,7 +13,10 @@ mod train;
 
 pub use check::CheckArgs;
 pub use data::DataArgs;
-pub use eval::{EvalArgs, EvalPart, EvalPerceptionArgs, EvalReconstructionArgs, EvalSkillArgs};
+pub use eval::{
+    EvalArgs, EvalGraspsArgs, EvalPart, EvalPerceptionArgs, EvalReconstructionArgs, EvalSkillArgs,
+    Series,
+};
 pub use ik::{Frame, IkArgs};
 pub use new::{NewAction, NewPluginArgs, NewRobotArgs, NewSkillArgs};
 pub use objects::{ImportArgs, ObjectsAction};

@@ -35,7 +35,7 @@ impl Reach {
     /// does.
     fn refusal(&self, pose: &Pose, turn_deg: f64) -> Result<Option<String>, PluginError> {
         let mut nearest: Option<(f64, String)> = None;
-        for turn in turns(turn_deg) {
+        for turn in turns(turn_deg, 0.0) {
             let pose = pose * turn.pose();
             let query = IkQuery::new(&pose, self.robot.home());
             let found = self.kinematics.solve(&self.robot, &query)?;

@@ -4,6 +4,7 @@ mod advice;
 mod args;
 mod builtin;
 mod console;
+mod disturbance;
 mod faults;
 mod files;
 mod fits;
@@ -76,6 +77,7 @@ fn dispatch(verb: &Verb) -> Result<Ending> {
         Verb::Eval(EvalArgs::Part(EvalPart::Reconstruction(args))) => {
             verbs::reconstruction::run(args)
         }
+        Verb::Eval(EvalArgs::Part(EvalPart::Grasps(args))) => verbs::eval::grasps::run(args),
         Verb::Teach(args) => verbs::teach::run(args),
         Verb::Objects { action: ObjectsAction::List { json } } => verbs::objects::list(*json),
         Verb::Objects { action: ObjectsAction::Import(args) } => verbs::objects::import(args),

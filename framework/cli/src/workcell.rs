@@ -2,6 +2,7 @@
 
 use crate::args::CellArgs;
 use crate::builtin;
+use crate::disturbance::Disturbance;
 use crate::faults::Faults;
 use crate::simulated::SimulatedCell;
 use anyhow::{Context, Result};
@@ -33,6 +34,7 @@ pub struct Workcell {
     /// Which plugin does what.
     pub methods: Methods,
     tries: usize,
+    disturbance: Disturbance,
     config: BTreeMap<Kind, toml::Table>,
     provenance: BTreeMap<String, String>,
     libraries: Vec<PathBuf>,
@@ -73,10 +75,19 @@ impl Workcell {
             robot,
             methods,
             tries: args.tries as usize,
+            disturbance: Disturbance::default(),
             config,
             provenance,
             libraries: args.libraries.plugins.clone(),
         })
+    }
+
+    /// The same, made worse.
+    #[must_use]
+    pub fn disturbed(mut self, disturbance: &Disturbance) -> Self {
+        self.disturbance = *disturbance;
+        disturbance.camera(self.config.entry(Kind::Camera).or_default());
+        self
     }
 
     /// Makes one attempt in a cell into which `object` has been dropped.
@@ -100,7 +111,8 @@ impl Workcell {
         };
         let judge = Box::new(cell.judge());
         let plugins = Plugins::build(&self.registry, &self.methods, &built, Some(judge))?;
-        let (skill, scene) = (self.skill.clone(), self.scene.clone());
+        let skill = self.skill.clone();
+        let scene = self.disturbance.scene(&self.scene, attempt.seed);
         let mut assignment =
             Assignment::new(skill, scene, self.robot.clone(), self.methods.clone())?;
         assignment.object = object.name().to_owned();
@@ -121,7 +133,10 @@ impl Workcell {
     pub fn fingerprint(&self, objects: &str) -> Result<String, Diagnostic> {
         let mut hasher = blake3::Hasher::new();
         let parts = (&self.skill, &self.scene, &self.robot, &self.methods, &self.config);
-        hasher.update(format!("{parts:?} {} {:?}", self.tries, self.provenance).as_bytes());
+        hasher.update(
+            format!("{parts:?} {} {:?} {:?}", self.tries, self.disturbance, self.provenance)
+                .as_bytes(),
+        );
         hasher.update(objects.as_bytes());
         let object_file = Some(Path::new(objects)).filter(|path| path.is_file());
         let result = self.skill.result.as_ref().map(|result| result.cloud.as_path());
@@ -141,6 +156,7 @@ impl Workcell {
     /// # Errors
     /// As [`SimulatedCell::drop`].
     pub fn drop(&self, object: &Object, seed: u64) -> Result<SimulatedCell> {
-        SimulatedCell::drop(&self.scene, object.clone(), seed).context("the simulated cell")
+        let scene = self.disturbance.scene(&self.scene, seed);
+        SimulatedCell::drop(&scene, object.clone(), seed).context("the simulated cell")
     }
 }

@@ -13,7 +13,7 @@ use crate::hand::{Hand, HandState};
 use crate::object::Object;
 use crate::scenery;
 use crate::surroundings::Surroundings;
-use crate::world::{Settings, World};
+use crate::world::{PlacementFault, Settings, World};
 use member::Member;
 use nalgebra::{Point3, Vector3};
 use rand::Rng;
@@ -191,6 +191,15 @@ impl Cell {
     pub fn place_hand(&mut self, pose: &Pose) {
         let hand = Hand { pose: *pose, opening_m: self.opening_m };
         self.members.iter_mut().for_each(|member| member.world.move_hand(&hand));
+    }
+
+    /// Lays the object that the hand took last so that its vertices are at `vertices` (world,
+    /// metres), at rest, as somebody does who sets it right; a grip is let go.
+    ///
+    /// # Errors
+    /// When they are not as many as it has, or not finite.
+    pub fn lay(&mut self, vertices: &[Point3<f64>]) -> Result<(), PlacementFault> {
+        self.world_mut().set_vertices(vertices)
     }
 
     /// One frame of [`FRAME_S`], at whose end the hand is at `pose`.

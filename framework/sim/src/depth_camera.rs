@@ -38,7 +38,13 @@ pub struct Noise {
     /// Share of the measured pixels at a depth edge that fly: the matching window holds
     /// both sides of the edge, and the depth is somewhere between them. A design value.
     pub flying: f64,
+    /// Share of the measured pixels whose depth is wrong by up to [`OUTLIER_M`] either way, as
+    /// false matches are; none in what is learnt from.
+    pub outliers: f64,
 }
+
+/// How wrong a false match may be, metres: a design value, half a cap.
+pub const OUTLIER_M: f64 = 0.1;
 
 impl Default for Noise {
     /// 2 mm at 0.7 m, alike over 5 pixels.
@@ -52,6 +58,7 @@ impl Default for Noise {
             edge_m: 0.015,
             edge_dropout: 0.7,
             flying: 0.1,
+            outliers: 0.0,
         }
     }
 }
@@ -114,7 +121,10 @@ pub fn capture(
             continue;
         }
         let sigma = seen_m.powi(2) * noise.disparity_px / (intrinsics.fx * noise.baseline_m);
-        let measured = seen_m + sigma * errors.at(column, row);
+        let mut measured = seen_m + sigma * errors.at(column, row);
+        if noise.outliers > 0.0 && rng.random::<f64>() < noise.outliers {
+            measured += uniform(rng, -OUTLIER_M, OUTLIER_M);
+        }
         depth_m[pixel] = ((measured / noise.step_m).round() * noise.step_m).max(0.0) as f32;
     }
     Capture { image: DepthImage { intrinsics: *intrinsics, depth_m }, truth }

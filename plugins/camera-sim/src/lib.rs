@@ -27,6 +27,25 @@ struct Configuration {
     by_colour: bool,
     /// A recorded cloud, for `camera-file` alone.
     cloud: Option<String>,
+    /// How noisy the simulated sensor is.
+    #[serde(default)]
+    noise: NoiseTable,
+}
+
+/// The simulated sensor's noise, against that of a real one.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct NoiseTable {
+    /// The axial error, in multiples of the usual one.
+    times: f64,
+    /// Share of the measured pixels that are false matches.
+    outliers: f64,
+}
+
+impl Default for NoiseTable {
+    fn default() -> Self {
+        Self { times: 1.0, outliers: 0.0 }
+    }
 }
 
 /// The box in `world` that holds the target, metres.

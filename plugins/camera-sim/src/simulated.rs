@@ -1,6 +1,6 @@
 //! `camera-sim`: one noisy depth image of the simulated cell a look.
 
-use crate::Configuration;
+use crate::{Configuration, NoiseTable};
 use nalgebra::Point3;
 use rand::Rng;
 use seeone_core::random::{Generator, generator};
@@ -18,7 +18,8 @@ pub struct SimulatedCamera {
     zone: DropZone,
     apart_m: Option<f64>,
     by_colour: bool,
-    noise: Generator,
+    noise: Noise,
+    random: Generator,
 }
 
 impl SimulatedCamera {
@@ -37,6 +38,7 @@ impl SimulatedCamera {
             let cause = format!("apart_m = {apart_m} is no distance");
             return Err(PluginError::Configuration(cause));
         }
+        let noise = noise(configuration.noise)?;
         let zone = DropZone {
             centre_m: crop.centre_xy_m,
             half_extents_m: crop.half_extents_m,
@@ -50,14 +52,15 @@ impl SimulatedCamera {
             zone,
             apart_m: crop.apart_m,
             by_colour: configuration.by_colour,
-            noise: generator(setup.seed, "camera"),
+            noise,
+            random: generator(setup.seed, "camera"),
         })
     }
 
-    fn look(&mut self, noise: &mut impl Rng) -> Result<Observation, PluginError> {
+    fn look(&self, random: &mut impl Rng) -> Result<Observation, PluginError> {
         let surfaces = self.world.surfaces()?;
         let meshes: Vec<&TriangleMesh> = surfaces.iter().map(|surface| &surface.mesh).collect();
-        let shot = capture(&meshes, &self.pose, &self.intrinsics, &Noise::default(), noise);
+        let shot = capture(&meshes, &self.pose, &self.intrinsics, &self.noise, random);
         let cloud = if self.by_colour {
             let coloured = |pixel| shot.shows(pixel, |mesh| surfaces[mesh].is_object);
             self.zone.coloured(&shot.image, &self.pose, coloured)
@@ -69,11 +72,21 @@ impl SimulatedCamera {
     }
 }
 
+/// The usual noise, changed as the table says.
+fn noise(NoiseTable { times, outliers }: NoiseTable) -> Result<Noise, PluginError> {
+    if !(times.is_finite() && times >= 0.0 && (0.0..=1.0).contains(&outliers)) {
+        let cause = format!("noise of {times} times the usual, {outliers} of it outliers, is none");
+        return Err(PluginError::Configuration(cause));
+    }
+    let usual = Noise::default();
+    Ok(Noise { disparity_px: usual.disparity_px * times, outliers, ..usual })
+}
+
 impl Camera for SimulatedCamera {
     fn observe(&mut self) -> Result<Observation, PluginError> {
-        let mut noise = self.noise.clone();
-        let observation = self.look(&mut noise);
-        self.noise = noise;
+        let mut random = self.random.clone();
+        let observation = self.look(&mut random);
+        self.random = random;
         observation
     }
 }

@@ -1,7 +1,9 @@
 //! `eval`: a skill many times, or a part alone.
 
 use super::CellArgs;
+use crate::disturbance::Disturbance;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, value_parser};
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// The most attempts of one evaluation: more than that is a slip of the finger.
@@ -25,6 +27,8 @@ pub enum EvalPart {
     Perception(EvalPerceptionArgs),
     /// The canonical shape that the encoding knows, as a surface, against the truth.
     Reconstruction(EvalReconstructionArgs),
+    /// Grasps told by perception and transfer, against the expert's on the true shape.
+    Grasps(EvalGraspsArgs),
 }
 
 // By hand, because a derived one wants the skill's arguments beside the subcommand's.
@@ -106,6 +110,26 @@ pub struct EvalReconstructionArgs {
 /// `eval SKILL`.
 #[derive(Clone, Debug, Args)]
 pub struct EvalSkillArgs {
+    /// Which attempts.
+    #[command(flatten)]
+    pub series: Series,
+    /// Keep every attempt in this file as it ends, and do not make again what is there: the same
+    /// command goes on where it was stopped, and more --attempts add to it.
+    #[arg(long, value_name = "FILE")]
+    pub keep: Option<PathBuf>,
+}
+
+/// `eval grasps`.
+#[derive(Clone, Debug, Args)]
+pub struct EvalGraspsArgs {
+    /// Which attempts: what is told in the first look of each counts, and nothing moves.
+    #[command(flatten)]
+    pub series: Series,
+}
+
+/// Many attempts with one skill.
+#[derive(Clone, Debug, Args)]
+pub struct Series {
     /// Skill, robot, scene, methods.
     #[command(flatten)]
     pub cell: CellArgs,
@@ -122,11 +146,17 @@ pub struct EvalSkillArgs {
     /// Attempts at the same time; the outcome does not depend on it.
     #[arg(long, default_value_t = 2)]
     pub jobs: usize,
-    /// Keep every attempt in this file as it ends, and do not make again what is there: the same
-    /// command goes on where it was stopped, and more --attempts add to it.
-    #[arg(long, value_name = "FILE")]
-    pub keep: Option<PathBuf>,
+    /// What is made worse.
+    #[command(flatten)]
+    pub disturbance: Disturbance,
     /// Print the table as JSON on standard output.
     #[arg(long)]
     pub json: bool,
+}
+
+impl Series {
+    /// The seeds of the attempts.
+    pub fn seeds(&self) -> Range<u64> {
+        self.first_seed..self.first_seed + self.attempts
+    }
 }

@@ -1,16 +1,18 @@
 //! `eval`: many attempts, their rates and their reasons.
 
+pub mod grasps;
+mod many;
 mod placed;
 
-use crate::args::EvalSkillArgs;
+use crate::args::{EvalSkillArgs, Series};
+use crate::disturbance::Disturbance;
 use crate::kept::Kept;
 use crate::rate::Rate;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
 use anyhow::Result;
-use indicatif::{ProgressBar, ProgressStyle};
+use many::many;
 use placed::Placed;
-use rayon::prelude::*;
 use seeone_runtime::run::{Hooks, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -24,6 +26,7 @@ struct Report {
     methods: BTreeMap<&'static str, String>,
     first_seed: u64,
     tries: u64,
+    disturbance: Disturbance,
     grasped: Rate,
     grasped_at_first_try: Rate,
     #[serde(flatten)]
@@ -37,37 +40,25 @@ struct Report {
 /// # Errors
 /// When something given is wrong; a run that fails is a row, not an error.
 pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
-    let workcell = Workcell::open(&args.cell)?;
-    let fingerprint = || workcell.fingerprint(&args.objects);
+    let series = &args.series;
+    let workcell = Workcell::open(&series.cell)?.disturbed(&series.disturbance);
+    let fingerprint = || workcell.fingerprint(&series.objects);
     let kept = args.keep.as_ref().map(|path| Kept::open(path, fingerprint()?)).transpose()?;
-    let bar = ProgressBar::new(args.attempts).with_style(ProgressStyle::with_template(
-        "eval {wide_bar} {pos}/{len} attempts, {eta} left",
-    )?);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.jobs.max(1)).build()?;
-    let seeds = args.first_seed..args.first_seed + args.attempts;
-    let outcomes: Vec<Outcome> = pool.install(|| {
-        seeds
-            .into_par_iter()
-            .map(|seed| {
-                if let Some(outcome) = kept.as_ref().and_then(|kept| kept.outcome(seed)) {
-                    bar.inc(1);
-                    return Ok(outcome.clone());
-                }
-                let object = objects::for_attempt(&args.objects, seed)?;
-                let cell = workcell.drop(&object, seed)?;
-                let attempt = Attempt { seed, dry_run: false, recording: None };
-                let finished = workcell.attempt(&cell, &object, attempt, Hooks::default())?;
-                if let Some(kept) = &kept {
-                    kept.keep(&finished.outcome)?;
-                }
-                bar.inc(1);
-                Ok(finished.outcome)
-            })
-            .collect::<Result<_>>()
+    let outcomes = many(series, |seed| {
+        if let Some(outcome) = kept.as_ref().and_then(|kept| kept.outcome(seed)) {
+            return Ok(outcome.clone());
+        }
+        let object = objects::for_attempt(&series.objects, seed)?;
+        let cell = workcell.drop(&object, seed)?;
+        let attempt = Attempt { seed, dry_run: false, recording: None };
+        let finished = workcell.attempt(&cell, &object, attempt, Hooks::default())?;
+        if let Some(kept) = &kept {
+            kept.keep(&finished.outcome)?;
+        }
+        Ok(finished.outcome)
     })?;
-    bar.finish_and_clear();
-    let report = report(args, &workcell, outcomes);
-    if args.json {
+    let report = report(series, &workcell, outcomes);
+    if series.json {
         console::answer(&serde_json::to_string_pretty(&report)?)?;
     } else {
         table(&report)?;
@@ -75,7 +66,7 @@ pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
     Ok(Ending::Success)
 }
 
-fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
+fn report(series: &Series, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
     let measure = &workcell.skill.measure;
     let mut failures = BTreeMap::new();
     for outcome in attempts.iter().filter(|outcome| !Placed::counts(measure, outcome)) {
@@ -85,10 +76,11 @@ fn report(args: &EvalSkillArgs, workcell: &Workcell, attempts: Vec<Outcome>) -> 
     Report {
         skill: workcell.skill.name.clone(),
         robot: workcell.robot_name.clone(),
-        objects: args.objects.clone(),
+        objects: series.objects.clone(),
         methods: workcell.methods.iter().map(|(k, name)| (k.name(), name.to_owned())).collect(),
-        first_seed: args.first_seed,
-        tries: args.cell.tries,
+        first_seed: series.first_seed,
+        tries: series.cell.tries,
+        disturbance: series.disturbance,
         grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
         grasped_at_first_try: Rate::of(attempts.iter().map(|o| o.grasped_at_first == Some(true))),
         placed: Placed::of(measure, &attempts),

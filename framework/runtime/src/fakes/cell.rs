@@ -34,6 +34,8 @@ pub(crate) struct Behaviour {
     pub(crate) panics: bool,
     /// The stage that no plan reaches.
     pub(crate) unreachable: Option<&'static str>,
+    /// How many plans are refused before one that would do is made.
+    pub(crate) refuses: usize,
     /// The stage that no plan reaches that does not begin with the first.
     pub(crate) blocks_after: Option<&'static str>,
     /// How many times the gripper closes on nothing.
@@ -54,6 +56,8 @@ pub(crate) struct Behaviour {
     pub(crate) clears: bool,
     /// How many times what is let go falls back to where it lay.
     pub(crate) falls: usize,
+    /// By how much what is let go at its place leans the first time, degrees.
+    pub(crate) leans_deg: f64,
 }
 
 pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginError> {
@@ -65,6 +69,7 @@ pub(super) fn broken(behaviour: &Behaviour, step: &str) -> Result<(), PluginErro
 struct FakeCamera {
     behaviour: Behaviour,
     lying: Cloud,
+    leaning: Cloud,
     worn: Cloud,
     closed: Moved,
     releases: Releases,
@@ -72,13 +77,15 @@ struct FakeCamera {
 
 impl Camera for FakeCamera {
     fn observe(&mut self) -> Result<Observation, PluginError> {
-        let Self { behaviour, lying, worn, .. } = self;
+        let Self { behaviour, lying, leaning, worn, .. } = self;
         broken(behaviour, "observe")?;
         let cleared = behaviour.clears && self.closed.load(Ordering::Relaxed);
-        let cloud = match self.releases.load(Ordering::Relaxed) > behaviour.falls {
+        let stays = self.releases.load(Ordering::Relaxed).checked_sub(behaviour.falls);
+        let cloud = match stays {
             _ if behaviour.blind || cleared => Cloud::default(),
-            true => worn.clone(),
-            false => lying.clone(),
+            None | Some(0) => lying.clone(),
+            Some(1) => leaning.clone(),
+            Some(_) => worn.clone(),
         };
         Ok(Observation { depth: None, cloud, camera_position: Point3::new(0.9, -0.4, 0.6) })
     }
@@ -229,7 +236,7 @@ impl FakeCell {
         let shown = Cloud::new(canonical_cloud(&worn).points).unwrap();
         write_cloud(&path, &shown, Encoding::BinaryLittleEndian).unwrap();
         let frame = "head".to_owned();
-        let result = ShownResult { cloud: path, frame, within_m: 0.01, within_deg: 5.0 };
+        let result = ShownResult { cloud: path, frame, within_m: 0.02, within_deg: 5.0 };
         cell.skill.result = Some(result);
         cell
     }
@@ -252,6 +259,7 @@ impl FakeCell {
             camera: Box::new(FakeCamera {
                 behaviour,
                 lying: cloud(&self.placed[1]),
+                leaning: cloud(&worn_on(&(head * leaning(behaviour.leans_deg)), 0.29)),
                 worn: cloud(&worn_on(&head, 0.29)),
                 closed: closed.clone(),
                 releases: releases.clone(),
@@ -261,7 +269,7 @@ impl FakeCell {
             alignment: Box::new(LeastSquares),
             transfer: Box::new(FakeTransfer(behaviour)),
             kinematics: Box::new(FakeKinematics),
-            motion: Box::new(FakeMotion(behaviour)),
+            motion: Box::new(FakeMotion(behaviour, AtomicUsize::new(0))),
             robot: Box::new(FakeRobot {
                 behaviour,
                 time_s: 2.0,
@@ -287,6 +295,11 @@ fn grasp(placed: &Similarity) -> Pose {
 /// The same grasp with the cap worn level on the head.
 fn release(head: &Pose) -> Pose {
     grasp(&worn_on(head, 0.27))
+}
+
+/// A lean about a head's x, as it is seen in its frame.
+pub(crate) fn leaning(degrees: f64) -> Pose {
+    Pose::rotation(Vector3::x() * degrees.to_radians())
 }
 
 /// A cap of `scale` metres a canonical unit, worn level on the head: canonical -> `world`.

@@ -8,4 +8,4 @@ mod solvers;
 
 pub(crate) use alignment::LeastSquares;
 pub(crate) use cap::canonical_cloud;
-pub(crate) use cell::{Behaviour, FakeCell, registry, robot_file};
+pub(crate) use cell::{Behaviour, FakeCell, leaning, registry, robot_file};

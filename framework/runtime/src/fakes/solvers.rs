@@ -9,6 +9,7 @@ use seeone_plugin::{
     JointTrajectory, Kinematics, Motion, MotionOutcome, MotionTask, Observation, Perception,
     PluginError, Program, Step, Transfer, TransferTask,
 };
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Knows the canonical coordinates of the fake cap's points by their order.
 pub(super) struct FakePerception(pub(super) Behaviour);
@@ -76,7 +77,7 @@ impl Kinematics for FakeKinematics {
 }
 
 /// One second for every line. Cheapest is the turn that points the tool downward most.
-pub(super) struct FakeMotion(pub(super) Behaviour);
+pub(super) struct FakeMotion(pub(super) Behaviour, pub(super) AtomicUsize);
 
 impl Motion for FakeMotion {
     fn plan(
@@ -92,7 +93,10 @@ impl Motion for FakeMotion {
             ));
         }
         let later = self.0.blocks_after.filter(|stage| task.key_poses[0].stage == *stage);
-        if let Some(stage) = self.0.unreachable.or(later) {
+        let wanted = |stage: &&str| task.key_poses.iter().any(|key| key.stage == *stage);
+        let refused = self.1.fetch_add(1, Ordering::Relaxed) < self.0.refuses;
+        let refused = refused.then_some("pick");
+        if let Some(stage) = self.0.unreachable.filter(wanted).or(later).or(refused) {
             let (stage, reason) = (stage.to_owned(), "0.30 m out of reach".to_owned());
             return Ok(MotionOutcome::Infeasible { stage, reason });
         }

@@ -141,6 +141,7 @@ fn key_poses(planned: &Planned) -> Value {
         "grasp": planned.grasp,
         "turn_deg": planned.turn.about_closing_deg,
         "flipped": planned.turn.flipped,
+        "tilt_deg": planned.turn.tilt_deg,
         "key_poses": planned.key_poses.iter().map(key_pose).collect::<Vec<_>>(),
     })
 }

@@ -5,17 +5,19 @@
 use super::act::{Acted, Again};
 use super::assignment::Assignment;
 use super::bench::Bench;
+use super::key_poses::Askew;
 use super::observe::NOTHING;
 use super::perceive::perceived;
 use super::step::{Failed, StageEvent, Step};
 use super::withdraw::withdrawn;
 use crate::files::ShownResult;
 use crate::plugins::Plugins;
-use crate::transfer::{ANCHOR, Placement};
+use crate::transfer::Placement;
 use bevy_ecs::prelude::*;
-use nalgebra::Vector3;
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 use seeone_core::{Pose, Similarity};
 use seeone_plugin::{CanonicalCloud, Observation};
+use std::f64::consts::PI;
 
 /// Whether the robot itself holds the object to lie as it was shown. Its verdict is its own: it
 /// may be wrong either way.
@@ -25,13 +27,22 @@ pub struct Checked {
     pub as_shown: bool,
 }
 
+/// What lies no farther than this from where it was shown, metres, and leans by no more than
+/// this, degrees, is set right where it is; anything else is taken from there and brought again.
+const ASKEW_M: f64 = 0.10;
+const ASKEW_DEG: f64 = 45.0;
+
+/// The point of the canonical cube by which places are compared: of one that is round, the only
+/// one that is where it is whatever the perception takes for its front.
+const MIDDLE: Point3<f64> = Point3::new(0.5, 0.5, 0.5);
+
 /// How far an object lies from where that of the demonstration lay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Off {
-    /// Distance of the anchors, metres.
+    /// Distance of the [`MIDDLE`]s, metres.
     metres: f64,
-    /// Angle between the up axes of the canonical states, degrees.
-    degrees: f64,
+    /// What turns the up axis of the shown one's canonical state into that of this one's.
+    lean: UnitQuaternion<f64>,
 }
 
 impl Off {
@@ -39,13 +50,25 @@ impl Off {
     fn between(shown: &Similarity, here: &Similarity) -> Self {
         let up = |placed: &Similarity| placed.isometry.rotation * Vector3::z();
         Self {
-            metres: (shown * ANCHOR - here * ANCHOR).norm(),
-            degrees: up(shown).angle(&up(here)).to_degrees(),
+            metres: (shown * MIDDLE - here * MIDDLE).norm(),
+            // Axes that are opposite have no one turn between them: any half turn will do.
+            lean: UnitQuaternion::rotation_between(&up(shown), &up(here))
+                .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PI)),
         }
     }
 
+    fn degrees(&self) -> f64 {
+        self.lean.angle().to_degrees()
+    }
+
+    /// For what lies where it was to be, and is to be set right there.
+    fn askew(&self) -> Option<Askew> {
+        let near = self.metres <= ASKEW_M && self.degrees() <= ASKEW_DEG;
+        near.then_some(Askew { lean: self.lean })
+    }
+
     fn is_within(&self, shown: &ShownResult) -> bool {
-        self.metres <= shown.within_m && self.degrees <= shown.within_deg
+        self.metres <= shown.within_m && self.degrees() <= shown.within_deg
     }
 }
 
@@ -70,10 +93,13 @@ pub(super) fn check(
             continue;
         }
         let as_shown = looked.as_ref().is_ok_and(|off| off.is_within(shown));
+        let askew = looked.as_ref().ok().and_then(Off::askew);
         let reason = match looked {
-            Ok(Off { metres, degrees }) => {
-                format!("{:.0} mm and {degrees:.0} degrees from where it was shown", metres * 1e3)
-            }
+            Ok(off) => format!(
+                "{:.0} mm and {:.0} degrees from where it was shown",
+                off.metres * 1e3,
+                off.degrees()
+            ),
             Err(reason) => reason,
         };
         let (name, reason) = (Step::Check.name().into(), Some(reason));
@@ -81,6 +107,9 @@ pub(super) fn check(
         commands.entity(run).insert(Checked { as_shown });
         if !as_shown && acted.tries < assignment.tries {
             commands.entity(run).insert(Again);
+            if let Some(askew) = askew {
+                commands.entity(run).insert(askew);
+            }
         }
     }
 }
@@ -114,8 +143,8 @@ mod tests {
     #[test]
     fn a_shift_and_a_tilt_are_told_and_a_turn_about_the_up_axis_is_not() {
         let at = |x: f64, turn: UnitQuaternion<f64>| {
-            let anchored = ANCHOR.coords * 0.27;
-            let to = Vector3::new(x, 0.0, 0.1) - turn * anchored;
+            let middle = MIDDLE.coords * 0.27;
+            let to = Vector3::new(x, 0.0, 0.1) - turn * middle;
             Similarity::from_parts(Translation3::from(to), turn, 0.27)
         };
         let level = UnitQuaternion::identity();
@@ -123,8 +152,10 @@ mod tests {
             |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
         let shown = at(0.0, level);
         let tilted = Off::between(&shown, &at(0.02, about(Vector3::x_axis(), 9.0)));
-        assert!((tilted.metres - 0.02).abs() < 1e-9 && (tilted.degrees - 9.0).abs() < 1e-6);
+        assert!((tilted.metres - 0.02).abs() < 1e-9 && (tilted.degrees() - 9.0).abs() < 1e-6);
         let turned = Off::between(&shown, &at(0.0, about(Vector3::z_axis(), 90.0)));
-        assert!(turned.metres < 1e-9 && turned.degrees < 1e-6, "{turned:?}");
+        assert!(turned.metres < 1e-9 && turned.degrees() < 1e-6, "{turned:?}");
+        let over = Off::between(&shown, &at(0.0, about(Vector3::y_axis(), 180.0)));
+        assert!((over.degrees() - 180.0).abs() < 1e-6, "{over:?}");
     }
 }

@@ -31,6 +31,7 @@ mod encode;
 mod execution;
 mod hull;
 mod judge;
+mod key_poses;
 mod observe;
 mod onward;
 mod outcome;

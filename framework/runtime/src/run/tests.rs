@@ -2,13 +2,14 @@
 
 use super::bench::UNREACHABLE;
 use super::*;
-use crate::fakes::{Behaviour, FakeCell};
+use crate::fakes::{Behaviour, FakeCell, leaning};
 use crate::files::Stage;
 use crate::record::{Channel, read};
-use crate::transfer::ANCHOR;
+use crate::transfer::{ANCHOR, TILTS_DEG, turns};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use bevy_ecs::world::World;
 use nalgebra::{Point3, Vector3};
+use seeone_core::pose::difference;
 use std::cell::RefCell;
 use std::fs;
 use std::rc::Rc;
@@ -203,6 +204,20 @@ fn a_hand_that_closed_on_nothing_opens_wider_as_far_as_it_can() {
 }
 
 #[test]
+fn a_hand_that_has_no_way_along_the_surface_comes_from_above_it() {
+    let cell = FakeCell::new();
+    let turns = turns(90.0, 0.0).len();
+    let tilt = |refuses: usize| {
+        let finished = finished(&cell, Behaviour { refuses, ..Behaviour::default() });
+        finished.left::<Planned>().map(|planned| planned.turn.tilt_deg)
+    };
+    let shares = plan::RETREAT_SHARES.len();
+    assert_eq!((tilt(0), tilt(turns * shares - 1)), (Some(0.0), Some(0.0)));
+    assert_eq!(tilt(turns * shares), Some(TILTS_DEG[1]));
+    assert_eq!(tilt(turns * shares * TILTS_DEG.len()), None);
+}
+
+#[test]
 fn what_does_not_lie_as_it_was_shown_is_taken_again() {
     let cell = FakeCell::with_result();
     let tried = |falls: usize, tries: usize| {
@@ -218,7 +233,7 @@ fn what_does_not_lie_as_it_was_shown_is_taken_again() {
     let at_once = tried(0, 3);
     assert_eq!((at_once.tries, at_once.as_shown, checks(&at_once)), (1, Some(true), vec![true]));
     let told = at_once.stages.iter().find(|stage| stage.name == "check").unwrap();
-    assert_eq!(told.reason.as_deref(), Some("0 mm and 0 degrees from where it was shown"));
+    assert_eq!(told.reason.as_deref(), Some("10 mm and 0 degrees from where it was shown"));
     let second = tried(1, 3);
     assert_eq!((second.tries, second.as_shown), (2, Some(true)));
     assert_eq!(checks(&second), [false, true]);
@@ -226,6 +241,36 @@ fn what_does_not_lie_as_it_was_shown_is_taken_again() {
     let never = tried(9, 2);
     assert_eq!((never.tries, never.as_shown, never.success), (2, Some(false), Some(true)));
     assert_eq!((checks(&never), never.failed_at), (vec![false, false], None));
+}
+
+#[test]
+fn what_lies_where_it_was_to_be_but_leans_is_set_right_there() {
+    let mut cell = FakeCell::with_result();
+    let place = Stage { gripper: None, retreat_m: 0.0, ..cell.skill.stages[1].clone() };
+    cell.skill.stages.insert(1, Stage { name: "place".into(), ..place });
+    let mut assignment = cell.assignment();
+    assignment.tries = 2;
+    let head = assignment.frames["head"];
+    let behaviour = Behaviour { leans_deg: 12.0, ..Behaviour::default() };
+    let finished = run(assignment, cell.plugins(behaviour), Hooks::default());
+    let outcome = &finished.outcome;
+    let told: Vec<_> = outcome.stages.iter().map(|s| (s.name.as_str(), s.ok)).collect();
+    assert!(told.contains(&("check", false)) && told.contains(&("right", true)), "{told:?}");
+    assert_eq!((outcome.tries, outcome.as_shown), (2, Some(true)));
+    let key_poses = &finished.left::<Planned>().unwrap().key_poses;
+    let [taken, right, release] = &key_poses[..] else { panic!("{key_poses:?}") };
+    assert_eq!((taken.lift_m, right.gripper, release.stage.as_str()), (0.0, None, "release"));
+    let turned = head * leaning(-12.0) * head.inverse() * taken.pose;
+    for key in [right, release] {
+        let (metres, radians) = difference(&key.pose, &turned);
+        assert!(metres < 1e-6 && radians < 1e-6, "{}: {metres} {radians}", key.stage);
+    }
+    // Where there is no way to set it right, all of it is done again.
+    let behaviour = Behaviour { unreachable: Some("right"), ..behaviour };
+    let mut assignment = cell.assignment();
+    assignment.tries = 2;
+    let outcome = run(assignment, cell.plugins(behaviour), Hooks::default()).outcome;
+    assert_eq!(names(&outcome).iter().filter(|name| **name == "place").count(), 2);
 }
 
 #[test]

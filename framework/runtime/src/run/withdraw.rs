@@ -15,6 +15,10 @@ use seeone_plugin::{GripperCommand, KeyPose, MotionOutcome, MotionTask, RobotSam
 /// How far the hand draws back from where it failed, metres, before it is free to go anywhere.
 const RETREAT_M: f64 = 0.15;
 
+/// It comes home by a line of so many metres: key poses that nothing lies between are joined by a
+/// straight line, and home is not to be on one.
+const HOMING_M: f64 = 0.01;
+
 /// On a run: one that failed, or a try that did, came before it.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Withdraw;
@@ -70,7 +74,7 @@ pub(super) fn withdrawn(
         let here = at(model.tool_pose(&start));
         let key_poses = [
             KeyPose { gripper: open, retreat_m: share * RETREAT_M, ..here },
-            at(model.tool_pose(model.home())),
+            KeyPose { approach_m: HOMING_M, ..at(model.tool_pose(model.home())) },
         ];
         // Whatever is in the hand is let go of there.
         let task = MotionTask {

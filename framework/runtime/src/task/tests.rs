@@ -44,6 +44,7 @@ const WELL: Behaviour = Behaviour {
     fails: None,
     panics: false,
     unreachable: None,
+    refuses: 0,
     blocks_after: None,
     misses: 0,
     drops: false,
@@ -54,6 +55,7 @@ const WELL: Behaviour = Behaviour {
     spoils: false,
     clears: false,
     falls: 0,
+    leans_deg: 0.0,
 };
 const MISS: Behaviour = Behaviour { misses: 1, ..WELL };
 const BLIND: Behaviour = Behaviour { blind: true, ..WELL };

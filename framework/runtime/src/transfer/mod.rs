@@ -14,7 +14,7 @@ pub use carry::{ANCHOR, Held, carried, relation};
 pub use gripper_points::gripper_points;
 pub use placement::{LocalFit, Placement};
 pub use surface::{brought_to_edge, edge_before_palm, laid_on_surface};
-pub use turn::{Turn, turns};
+pub use turn::{TILTS_DEG, Turn, turns};
 
 #[cfg(test)]
 mod tests;

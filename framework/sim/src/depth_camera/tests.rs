@@ -120,3 +120,19 @@ fn looks_at_its_target_with_the_image_upright() {
     let up = camera.inverse() * Point3::new(0.0, 0.0, 0.1);
     assert!(up.y < 0.0, "what is higher in the world is higher in the image");
 }
+
+#[test]
+fn a_share_of_the_pixels_are_false_matches_where_that_is_asked_for() {
+    let camera = above(90.0);
+    let far = |outliers| {
+        let noise = Noise { outliers, ..Noise::default() };
+        let shot = capture(&[&table()], &camera, &D435I, &noise, &mut generator(1, "t"));
+        let depths = shot.image.depth_m.iter().filter(|z| **z > 0.0);
+        let truth = camera.translation.vector.z as f32;
+        let wrong = depths.clone().filter(|z| (*z - truth).abs() > 0.02).count();
+        wrong as f64 / depths.count() as f64
+    };
+    assert_eq!(far(0.0), 0.0);
+    // Four of five of them are off by more than 20 of up to 100 mm.
+    assert!((0.035..0.045).contains(&far(0.05)), "{}", far(0.05));
+}

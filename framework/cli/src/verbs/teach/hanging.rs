@@ -58,6 +58,7 @@ pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
                 ..on_hook("release", Vector3::z() * LOWEST_M)
             },
         ],
+        set_right: None,
         measure: Measure::Hung,
     })
 }

@@ -47,7 +47,8 @@ const TOUCH_N: f64 = 10.0;
 pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
     let head = scene.head().ok_or_else(|| missing(scene, "head"))?.pose;
     let (grasp, now) = grasp(cell)?;
-    let worn = grasp.tool_on(&cell.worn_vertices()?);
+    let right = cell.worn_vertices()?;
+    let worn = grasp.tool_on(&right);
     let over = |place: Over| {
         let nose_up = place.nose_up_deg.to_radians();
         let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), nose_up);
@@ -87,6 +88,7 @@ pub(super) fn lesson(cell: &SimulatedCell, scene: &Scene) -> Result<Lesson> {
         summary: "Pick a cap from the table and put it on a head.",
         frames: BTreeMap::from([("head".to_owned(), head)]),
         stages,
+        set_right: Some(right),
         measure: Measure::Worn { tolerance_d: TOLERANCE_D },
     })
 }
