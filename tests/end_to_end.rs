@@ -320,6 +320,36 @@ fn an_evaluation_does_not_depend_on_its_jobs() {
     assert_ne!(one["attempts"][0]["object"], one["attempts"][1]["object"]);
 }
 
+/// The truth finds the grasp, and what is made worse is told. No oracle is asked for in a run.
+#[test]
+fn grasps_are_held_against_the_experts() {
+    let evaluated = |extra: &[&str]| -> Value {
+        let words = ["eval", "grasps", SKILL, "--objects", "train", "--attempts", "2", "--json"];
+        let call = seeone(words.iter().chain(extra));
+        assert_eq!(call.status, Some(0), "{extra:?}: {}", call.stderr);
+        serde_json::from_str(&call.stdout).expect("one JSON object")
+    };
+    let told = evaluated(&["--oracle", "coordinates", "--oracle", "grasp"]);
+    assert_eq!(told["near"]["successes"], 2, "{told}");
+    let median = told["median"]["metres"].as_f64().expect("a median");
+    assert!(median < 0.005, "{median}");
+    let grasps = |extra: &[&str]| evaluated(extra)["grasps"].clone();
+    let plain = grasps(&[]);
+    assert_ne!(grasps(&["--camera-noise", "2", "--outliers", "0.05"]), plain);
+    assert_ne!(grasps(&["--head-moves", "0.15", "--head-turns", "30"]), plain);
+    for (words, cause) in [
+        (["--oracle", "release"], "coordinates, grasp"),
+        (["--outliers", "1.5"], "a number from 0 to 1"),
+        (["--head-moves", "nan"], "a number from 0 to 1"),
+    ] {
+        let call = seeone(["eval", SKILL].iter().chain(&words));
+        assert_eq!(call.status, Some(2), "{words:?}: {}", call.stderr);
+        assert!(call.stderr.contains(cause), "{words:?}: {}", call.stderr);
+    }
+    let run = seeone(["run", SKILL, "--oracle", "grasp"]);
+    assert_eq!(run.status, Some(2), "{}", run.stderr);
+}
+
 #[test]
 fn a_skill_that_was_taught_is_sound() {
     let folder = tempfile::tempdir().expect("a temporary folder");

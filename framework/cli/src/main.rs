@@ -14,6 +14,7 @@ mod judge;
 mod kept;
 mod motion_table;
 mod objects;
+mod oracle;
 mod outputs;
 mod picture;
 mod rate;

@@ -15,7 +15,7 @@ use seeone_sim::drop::Drop;
 use seeone_sim::object::Object;
 use seeone_sim::surroundings::{Frictions, Head, Hook, Surroundings};
 use seeone_sim::world::Settings;
-use seeone_sim::worn::worn_on;
+use seeone_sim::worn::{Worn, worn_on};
 use std::sync::{Arc, Mutex};
 
 /// A simulated cell and, where it has a head, what its object looks like when it is worn.
@@ -99,6 +99,11 @@ impl SimulatedCell {
     /// The judge of this cell.
     pub fn judge(&self) -> CellJudge {
         CellJudge::new(self.shared(), self.scene.clone(), self.wearing.clone())
+    }
+
+    /// What its object looks like when it is worn on this cell's head; none where there is no head.
+    pub fn worn(&self) -> Option<&Worn> {
+        self.wearing.as_ref().map(|wearing| &wearing.worn)
     }
 
     /// The worn state on this cell's head, in `world`, metres.

@@ -4,6 +4,7 @@ use crate::args::CellArgs;
 use crate::builtin;
 use crate::disturbance::Disturbance;
 use crate::faults::Faults;
+use crate::oracle::{self, Oracle};
 use crate::simulated::SimulatedCell;
 use anyhow::{Context, Result};
 use seeone_core::Diagnostic;
@@ -35,6 +36,7 @@ pub struct Workcell {
     pub methods: Methods,
     tries: usize,
     disturbance: Disturbance,
+    oracles: Vec<Oracle>,
     config: BTreeMap<Kind, toml::Table>,
     provenance: BTreeMap<String, String>,
     libraries: Vec<PathBuf>,
@@ -76,6 +78,7 @@ impl Workcell {
             methods,
             tries: args.tries as usize,
             disturbance: Disturbance::default(),
+            oracles: Vec::new(),
             config,
             provenance,
             libraries: args.libraries.plugins.clone(),
@@ -87,6 +90,13 @@ impl Workcell {
     pub fn disturbed(mut self, disturbance: &Disturbance) -> Self {
         self.disturbance = *disturbance;
         disturbance.camera(self.config.entry(Kind::Camera).or_default());
+        self
+    }
+
+    /// The same, with truth in the place of what a robot finds out.
+    #[must_use]
+    pub fn consulting(mut self, oracles: &[Oracle]) -> Self {
+        self.oracles = oracles.to_vec();
         self
     }
 
@@ -111,6 +121,7 @@ impl Workcell {
         };
         let judge = Box::new(cell.judge());
         let plugins = Plugins::build(&self.registry, &self.methods, &built, Some(judge))?;
+        let plugins = oracle::consult(&self.oracles, plugins, cell, &self.skill)?;
         let skill = self.skill.clone();
         let scene = self.disturbance.scene(&self.scene, attempt.seed);
         let mut assignment =
@@ -137,6 +148,7 @@ impl Workcell {
             format!("{parts:?} {} {:?} {:?}", self.tries, self.disturbance, self.provenance)
                 .as_bytes(),
         );
+        hasher.update(format!("{:?} {:?}", self.disturbance, self.oracles).as_bytes());
         hasher.update(objects.as_bytes());
         let object_file = Some(Path::new(objects)).filter(|path| path.is_file());
         let result = self.skill.result.as_ref().map(|result| result.cloud.as_path());

@@ -2,6 +2,7 @@
 
 use super::CellArgs;
 use crate::disturbance::Disturbance;
+use crate::oracle::Oracle;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand, value_parser};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -149,6 +150,9 @@ pub struct Series {
     /// What is made worse.
     #[command(flatten)]
     pub disturbance: Disturbance,
+    /// Let the simulated cell tell this instead of the robot's finding it out; may be repeated.
+    #[arg(long = "oracle", value_name = "WHAT")]
+    pub oracles: Vec<Oracle>,
     /// Print the table as JSON on standard output.
     #[arg(long)]
     pub json: bool,

@@ -7,6 +7,7 @@ mod placed;
 use crate::args::{EvalSkillArgs, Series};
 use crate::disturbance::Disturbance;
 use crate::kept::Kept;
+use crate::oracle::Oracle;
 use crate::rate::Rate;
 use crate::workcell::{Attempt, Workcell};
 use crate::{Ending, console, objects};
@@ -27,6 +28,7 @@ struct Report {
     first_seed: u64,
     tries: u64,
     disturbance: Disturbance,
+    oracles: Vec<Oracle>,
     grasped: Rate,
     grasped_at_first_try: Rate,
     #[serde(flatten)]
@@ -41,7 +43,8 @@ struct Report {
 /// When something given is wrong; a run that fails is a row, not an error.
 pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
     let series = &args.series;
-    let workcell = Workcell::open(&series.cell)?.disturbed(&series.disturbance);
+    let workcell =
+        Workcell::open(&series.cell)?.disturbed(&series.disturbance).consulting(&series.oracles);
     let fingerprint = || workcell.fingerprint(&series.objects);
     let kept = args.keep.as_ref().map(|path| Kept::open(path, fingerprint()?)).transpose()?;
     let outcomes = many(series, |seed| {
@@ -81,6 +84,7 @@ fn report(series: &Series, workcell: &Workcell, attempts: Vec<Outcome>) -> Repor
         first_seed: series.first_seed,
         tries: series.cell.tries,
         disturbance: series.disturbance,
+        oracles: series.oracles.clone(),
         grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
         grasped_at_first_try: Rate::of(attempts.iter().map(|o| o.grasped_at_first == Some(true))),
         placed: Placed::of(measure, &attempts),

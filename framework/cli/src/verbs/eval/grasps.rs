@@ -73,7 +73,8 @@ struct Report {
 /// As the evaluation of a skill, and when the expert knows no way to take an object.
 pub fn run(args: &EvalGraspsArgs) -> Result<Ending> {
     let series = &args.series;
-    let workcell = Workcell::open(&series.cell)?.disturbed(&series.disturbance);
+    let workcell =
+        Workcell::open(&series.cell)?.disturbed(&series.disturbance).consulting(&series.oracles);
     let grasps = many(series, |seed| {
         let object = objects::for_attempt(&series.objects, seed)?;
         let cell = workcell.drop(&object, seed)?;
