@@ -30,12 +30,16 @@ impl Rate {
         Self { successes, attempts, low, high }
     }
 
+    /// In short: `34/40`.
+    pub fn short(&self) -> String {
+        format!("{}/{}", self.successes, self.attempts)
+    }
+
     /// As a table shows it: `34/40 = 85.0 % (70.9 - 92.9)`.
     pub fn text(&self) -> String {
         format!(
-            "{}/{} = {:.1} % ({:.1} - {:.1})",
-            self.successes,
-            self.attempts,
+            "{} = {:.1} % ({:.1} - {:.1})",
+            self.short(),
             100.0 * self.successes as f64 / self.attempts.max(1) as f64,
             100.0 * self.low,
             100.0 * self.high

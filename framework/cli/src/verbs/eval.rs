@@ -14,6 +14,7 @@ use crate::{Ending, console, objects};
 use anyhow::Result;
 use many::many;
 use placed::Placed;
+use seeone_plugin::Measure;
 use seeone_runtime::run::{Hooks, Outcome};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -29,12 +30,38 @@ struct Report {
     tries: u64,
     disturbance: Disturbance,
     oracles: Vec<Oracle>,
+    #[serde(flatten)]
+    all: Group,
+    by_object: BTreeMap<String, Group>,
+    failures: BTreeMap<String, u64>,
+    /// How long each stage took the robot, on average over the times that it was carried out.
+    stage_s: BTreeMap<String, f64>,
+    attempts: Vec<Outcome>,
+}
+
+/// The rates of some attempts.
+#[derive(Debug, Serialize)]
+struct Group {
     grasped: Rate,
     grasped_at_first_try: Rate,
     #[serde(flatten)]
     placed: Placed,
-    failures: BTreeMap<String, u64>,
-    attempts: Vec<Outcome>,
+}
+
+impl Group {
+    fn of(measure: &Measure, attempts: &[&Outcome]) -> Self {
+        let rate = |ok: fn(&Outcome) -> bool| Rate::of(attempts.iter().map(|outcome| ok(outcome)));
+        Self {
+            grasped: rate(|outcome| outcome.grasped == Some(true)),
+            grasped_at_first_try: rate(|outcome| outcome.grasped_at_first == Some(true)),
+            placed: Placed::of(measure, attempts),
+        }
+    }
+
+    fn rates(&self) -> Vec<(&'static str, &Rate)> {
+        let taken = [("grasped", &self.grasped), ("at the first try", &self.grasped_at_first_try)];
+        taken.into_iter().chain(self.placed.rates()).collect()
+    }
 }
 
 /// Makes all attempts and prints the table.
@@ -85,12 +112,33 @@ fn report(series: &Series, workcell: &Workcell, attempts: Vec<Outcome>) -> Repor
         tries: series.cell.tries,
         disturbance: series.disturbance,
         oracles: series.oracles.clone(),
-        grasped: Rate::of(attempts.iter().map(|o| o.grasped == Some(true))),
-        grasped_at_first_try: Rate::of(attempts.iter().map(|o| o.grasped_at_first == Some(true))),
-        placed: Placed::of(measure, &attempts),
+        all: Group::of(measure, &attempts.iter().collect::<Vec<_>>()),
+        by_object: by_object(measure, &attempts),
         failures,
+        stage_s: stage_s(&attempts),
         attempts,
     }
+}
+
+fn by_object(measure: &Measure, attempts: &[Outcome]) -> BTreeMap<String, Group> {
+    let mut groups: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
+    for outcome in attempts {
+        groups.entry(&outcome.object).or_default().push(outcome);
+    }
+    let group =
+        |(object, own): (&str, Vec<&Outcome>)| (object.to_owned(), Group::of(measure, &own));
+    groups.into_iter().map(group).collect()
+}
+
+fn stage_s(attempts: &[Outcome]) -> BTreeMap<String, f64> {
+    let mut sums: BTreeMap<&str, (f64, f64)> = BTreeMap::new();
+    // What thinks takes no time in an evaluation, whose bytes no clock may change.
+    let done = attempts.iter().flat_map(|outcome| &outcome.stages).filter(|s| s.seconds > 0.0);
+    for stage in done {
+        let (sum, count) = sums.entry(&stage.name).or_default();
+        (*sum, *count) = (*sum + stage.seconds, *count + 1.0);
+    }
+    sums.into_iter().map(|(name, (sum, count))| (name.to_owned(), sum / count)).collect()
 }
 
 fn table(report: &Report) -> Result<()> {
@@ -104,15 +152,23 @@ fn table(report: &Report) -> Result<()> {
         ));
     }
     console::answer(&format!("{} on {} ({})", report.skill, report.objects, report.robot))?;
-    let taken = [
-        ("grasped", report.grasped.text()),
-        ("at the first try", report.grasped_at_first_try.text()),
-    ];
-    for (name, text) in taken.into_iter().chain(report.placed.rows()) {
-        console::answer(&format!("  {name:<20} {text}"))?;
+    for (name, rate) in report.all.rates() {
+        console::answer(&format!("  {name:<20} {}", rate.text()))?;
+    }
+    if let Some(mean_m) = report.all.placed.mean_error_m() {
+        let mean_mm = mean_m * 1e3;
+        console::answer(&format!("  {:<20} {mean_mm:.1} mm (worn within 0.2 d)", "mean error"))?;
+    }
+    for (object, group) in report.by_object.iter().filter(|_| report.by_object.len() > 1) {
+        let rate = |(name, rate): (&str, &Rate)| format!("{name} {}", rate.short());
+        let rates: Vec<String> = group.rates().into_iter().map(rate).collect();
+        console::answer(&format!("  {object:<20} {}", rates.join(", ")))?;
     }
     for (stage, count) in &report.failures {
         console::answer(&format!("  failed at {stage:<10} {count}"))?;
+    }
+    for (stage, seconds) in &report.stage_s {
+        console::answer(&format!("  {stage:<20} {seconds:.1} s of the robot's time"))?;
     }
     Ok(())
 }

@@ -42,8 +42,9 @@ pub enum Placed {
 
 impl Placed {
     /// What `attempts` came to.
-    pub fn of(measure: &Measure, attempts: &[Outcome]) -> Self {
-        let rate = |ok: &dyn Fn(&Outcome) -> bool| Rate::of(attempts.iter().map(ok));
+    pub fn of(measure: &Measure, attempts: &[&Outcome]) -> Self {
+        let rate =
+            |ok: &dyn Fn(&Outcome) -> bool| Rate::of(attempts.iter().map(|outcome| ok(outcome)));
         let succeeded = || rate(&|outcome| outcome.success == Some(true));
         match measure {
             Measure::Worn { .. } => Self::Worn {
@@ -66,29 +67,33 @@ impl Placed {
         }
     }
 
-    /// The lines of the table: what is counted, and its rate or length.
-    pub fn rows(&self) -> Vec<(&'static str, String)> {
+    /// What is counted, and its rate.
+    pub fn rates(&self) -> Vec<(&'static str, &Rate)> {
         match self {
             Self::Worn {
                 worn_within_005_d,
                 worn_within_01_d,
                 worn_within_02_d,
                 worn_properly,
-                mean_error_m_of_worn_within_02_d,
-            } => {
-                let mut rows = vec![
-                    ("worn within 0.2 d", worn_within_02_d.text()),
-                    ("worn within 0.1 d", worn_within_01_d.text()),
-                    ("worn within 0.05 d", worn_within_005_d.text()),
-                    ("worn properly", worn_properly.text()),
-                ];
-                let mean = mean_error_m_of_worn_within_02_d;
-                let told = |mean| format!("{:.1} mm (worn within 0.2 d)", mean * 1e3);
-                rows.extend(mean.map(|mean| ("mean error", told(mean))));
-                rows
+                ..
+            } => vec![
+                ("worn within 0.2 d", worn_within_02_d),
+                ("worn within 0.1 d", worn_within_01_d),
+                ("worn within 0.05 d", worn_within_005_d),
+                ("worn properly", worn_properly),
+            ],
+            Self::Hung { hung } => vec![("hung", hung)],
+            Self::Held { held } => vec![("held at its place", held)],
+        }
+    }
+
+    /// Mean vertex error, metres, where there is one.
+    pub fn mean_error_m(&self) -> Option<f64> {
+        match self {
+            Self::Worn { mean_error_m_of_worn_within_02_d, .. } => {
+                *mean_error_m_of_worn_within_02_d
             }
-            Self::Hung { hung } => vec![("hung", hung.text())],
-            Self::Held { held } => vec![("held at its place", held.text())],
+            Self::Hung { .. } | Self::Held { .. } => None,
         }
     }
 }
@@ -104,7 +109,7 @@ fn properly(outcome: &Outcome) -> bool {
         && outcome.yaw_deg.is_some_and(|y| y.abs() < PROPER_YAW_DEG)
 }
 
-fn mean_error_m(attempts: &[Outcome]) -> Option<f64> {
+fn mean_error_m(attempts: &[&Outcome]) -> Option<f64> {
     let worn = attempts.iter().filter(|outcome| worn(outcome, WIDEST_D));
     let errors: Vec<f64> = worn.filter_map(|outcome| outcome.error_m).collect();
     (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64)
