@@ -46,3 +46,18 @@ fn a_wrong_cloud_is_told() {
         assert_eq!(checked.stderr.matches(&format!("error[{code}]")).count(), 2, "{case}");
     }
 }
+
+#[test]
+fn a_hand_that_closes_beside_its_cloud_is_told() {
+    let bench = Bench::new();
+    let mut skill: toml::Table = bench.text(SKILL).parse().expect("valid TOML");
+    let place = &mut skill["stage"][0]["gripper_pose"]["xyz_m"][0];
+    *place = (place.as_float().expect("a coordinate") + 0.3).into();
+    bench.write(SKILL, skill.to_string());
+    let says = ["demonstration.ply", "\"pick\"", "closes on no points", "mm away"];
+    refused("beside", &bench, &bench.run(&[]), "M006", &says);
+    let checked = seeone(["check", &bench.arg(SKILL)]);
+    assert_eq!(checked.status, Some(1), "{}", checked.stderr);
+    assert!(checked.stderr.contains("error[S032]: "), "{}", checked.stderr);
+    assert!(checked.stderr.contains("cap-wearing.toml:"), "{}", checked.stderr);
+}

@@ -1,11 +1,12 @@
 //! Whether a skill fits a robot and a scene: what can be told before anything is seen.
 
+use seeone_core::formats::ply;
 use seeone_core::robot::RobotModel;
 use seeone_core::{Diagnostic, Pose};
 use seeone_plugin::{IkQuery, IkStatus, Kind, Kinematics, PluginError, Setup};
 use seeone_runtime::Registry;
 use seeone_runtime::files::{RelativeTo, RobotFile, Scene, Skill, Stage, locate};
-use seeone_runtime::transfer::turns;
+use seeone_runtime::transfer::{takes, turns};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -51,7 +52,7 @@ impl Reach {
     }
 }
 
-/// What of a skill's file does not fit: frames that the scene has not, and poses that the robot
+/// What of a skill's file does not fit: a hand that closes beside its cloud, frames that the scene has not, and poses that the robot
 /// does not reach where the scene has them. `targets` are the scene's frames for those of the
 /// skill, where a task binds them.
 pub fn misfits(
@@ -62,27 +63,35 @@ pub fn misfits(
     scene: Option<&Scene>,
 ) -> Vec<Diagnostic> {
     let stages = skill.stages.iter().enumerate();
-    stages
-        .filter_map(|(index, stage)| {
-            let at = |key: &str| locate(path, &["stage", &index.to_string(), key]);
-            let pose = match here(skill, stage, targets, scene) {
-                Ok(pose) => pose,
-                Err(cause) => {
-                    let (line, column) = at("relative_to");
-                    let fault = Diagnostic::new("S031", cause).at_line(path, line, column);
-                    return Some(fault.hint("choose another scene, or bind the frame in a task"));
-                }
-            };
-            let reach = reach?;
-            let turn_deg = skill.stages[0].turn_about_closing_deg;
-            let why =
-                reach.refusal(&pose, turn_deg).unwrap_or_else(|fault| Some(fault.to_string()));
-            let cause = format!("stage {:?} is beyond {}: {}", stage.name, reach.name, why?);
-            let (line, column) = at("gripper_pose");
-            let fault = Diagnostic::new("S030", cause).at_line(path, line, column);
-            Some(fault.hint("choose another robot, or move its base nearer"))
-        })
-        .collect()
+    let misfits = stages.filter_map(|(index, stage)| {
+        let at = |key: &str| locate(path, &["stage", &index.to_string(), key]);
+        let pose = match here(skill, stage, targets, scene) {
+            Ok(pose) => pose,
+            Err(cause) => {
+                let (line, column) = at("relative_to");
+                let fault = Diagnostic::new("S031", cause).at_line(path, line, column);
+                return Some(fault.hint("choose another scene, or bind the frame in a task"));
+            }
+        };
+        let reach = reach?;
+        let turn_deg = skill.stages[0].turn_about_closing_deg;
+        let why = reach.refusal(&pose, turn_deg).unwrap_or_else(|fault| Some(fault.to_string()));
+        let cause = format!("stage {:?} is beyond {}: {}", stage.name, reach.name, why?);
+        let (line, column) = at("gripper_pose");
+        let fault = Diagnostic::new("S030", cause).at_line(path, line, column);
+        Some(fault.hint("choose another robot, or move its base nearer"))
+    });
+    taken_nothing(path, skill).into_iter().chain(misfits).collect()
+}
+
+/// The fault of a demonstration whose hand closes on no point of its cloud; that the cloud cannot be
+/// read is told elsewhere.
+fn taken_nothing(path: &Path, skill: &Skill) -> Option<Diagnostic> {
+    let shown = ply::read_cloud(&skill.demonstration.cloud).ok()?;
+    let cause = takes(skill, &shown).err()?;
+    let (line, column) = locate(path, &["stage", "0", "gripper_pose"]);
+    let fault = Diagnostic::new("S032", cause).at_line(path, line, column);
+    Some(fault.hint("cloud and gripper_pose are in `world`, of the moment before the hand closes"))
 }
 
 /// The demonstrated pose of a stage where the scene has its frame; where it was shown when there

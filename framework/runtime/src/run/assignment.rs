@@ -3,6 +3,7 @@
 use crate::files::{Scene, Skill};
 use crate::methods::Methods;
 use crate::record::pose;
+use crate::transfer::takes;
 use bevy_ecs::component::Component;
 use seeone_core::formats::ply;
 use seeone_core::robot::RobotModel;
@@ -46,7 +47,8 @@ impl Assignment {
     /// An assignment with seed 0 that is tried once and not recorded.
     ///
     /// # Errors
-    /// `P0xx` when a cloud of the demonstration cannot be read, `M005` when the skill has no
+    /// `P0xx` when a cloud of the demonstration cannot be read, `M006` when its hand closes on
+    /// nothing, `M005` when the skill has no
     /// stage or the scene lacks a frame that it needs.
     pub fn new(
         skill: Skill,
@@ -73,6 +75,11 @@ impl Assignment {
             return Err(Diagnostic::new("M005", format!("skill {:?} has no stage", skill.name)));
         }
         let demonstration = ply::read_cloud(&skill.demonstration.cloud)?;
+        takes(&skill, &demonstration).map_err(|cause| {
+            Diagnostic::new("M006", cause)
+                .in_file(&skill.demonstration.cloud)
+                .hint("cloud and gripper_pose are in `world`, of the moment before the hand closes")
+        })?;
         let result = skill.result.as_ref().map(|shown| ply::read_cloud(&shown.cloud));
         let result = result.transpose()?;
         let mut frames = BTreeMap::new();

@@ -1,12 +1,14 @@
 //! Where does each observed point lie in the canonical state: on the object that was
 //! shown, and on this one?
 
+use super::act::Acted;
 use super::assignment::Assignment;
 use super::bench::Bench;
 use super::observe::Seen;
 use super::schedule::leave;
 use super::step::{Failed, Step};
 use crate::plugins::Plugins;
+use crate::transfer::Placement;
 use bevy_ecs::prelude::*;
 use seeone_plugin::{CanonicalCloud, Observation};
 
@@ -23,9 +25,9 @@ pub struct Perceived {
 pub(super) fn perceive(
     mut commands: Commands,
     mut bench: NonSendMut<Bench>,
-    runs: Query<(Entity, &Assignment, &Seen), Without<Failed>>,
+    runs: Query<(Entity, &Assignment, &Seen, Option<&Acted>), Without<Failed>>,
 ) {
-    for (run, assignment, seen) in &runs {
+    for (run, assignment, seen, acted) in &runs {
         let shown = Observation {
             depth: None,
             cloud: assignment.demonstration.clone(),
@@ -34,7 +36,13 @@ pub(super) fn perceive(
         let perceived = bench.step(Step::Perceive, |plugins| {
             let demonstration =
                 perceived(plugins, &shown).map_err(|e| format!("the demonstration: {e}"))?;
+            of_the_category(plugins, &demonstration)
+                .map_err(|e| format!("the demonstration: {e}"))?;
             let instance = perceived(plugins, &seen.0)?;
+            // What was tried already is what it is, however it hangs or lies now.
+            if acted.is_none() {
+                of_the_category(plugins, &instance)?;
+            }
             Ok(Perceived { demonstration, instance })
         });
         leave(&mut commands, run, perceived);
@@ -48,6 +56,31 @@ pub(super) fn perceived(
 ) -> Result<CanonicalCloud, String> {
     let cloud = plugins.perception.perceive(observation).map_err(|e| e.to_string())?;
     sound(&cloud).map(|()| cloud)
+}
+
+/// What is seen is no object of the category, or more than one, where its points lie off their
+/// canonical coordinates by more than this for each cube of the confidence, metres: an object that is
+/// folded is far off its canonical shape, but surely so (`docs/decisions/0030-no-cap.md`).
+const MOST_DOUBT_M: f64 = 0.06;
+
+fn of_the_category(plugins: &Plugins, cloud: &CanonicalCloud) -> Result<(), String> {
+    let placement = Placement::new(plugins.alignment.as_ref(), cloud);
+    let fit = placement.map_err(|e| e.to_string())?.global().transform;
+    let confidences: Vec<f64> = cloud.weights().collect();
+    let total: f64 = confidences.iter().sum();
+    let pairs = cloud.points.iter().zip(&cloud.nocs).zip(&confidences);
+    let squares = pairs.map(|((point, nocs), weight)| weight * (point - fit * nocs).norm_squared());
+    let off_m = (squares.sum::<f64>() / total).sqrt();
+    let confidence = total / confidences.len() as f64;
+    // A confidence of zero everywhere is no number, and no doubt is smaller.
+    if off_m / confidence.powi(3) <= MOST_DOUBT_M {
+        return Ok(());
+    }
+    Err(format!(
+        "what is seen is no object of the skill's category, or more than one: it lies {:.0} mm off \
+         the shape that it is taken for, with a confidence of {confidence:.2}",
+        off_m * 1e3
+    ))
 }
 
 /// What no plugin may hand on: vectors of unequal length, numbers that are not finite.

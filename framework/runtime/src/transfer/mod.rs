@@ -8,12 +8,14 @@ mod carry;
 mod gripper_points;
 mod placement;
 mod surface;
+mod taken;
 mod turn;
 
 pub use carry::{ANCHOR, Held, carried, relation};
 pub use gripper_points::gripper_points;
 pub use placement::{LocalFit, Placement};
 pub use surface::{brought_to_edge, edge_before_palm, laid_on_surface};
+pub use taken::takes;
 pub use turn::{TILTS_DEG, Turn, turns};
 
 #[cfg(test)]
