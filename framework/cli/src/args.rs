@@ -113,7 +113,7 @@ pub struct CellArgs {
     pub methods: Vec<(Kind, String)>,
     /// How often the robot may look and reach for the object if a try does not come out; a
     /// task says itself how often its steps are tried.
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u64).range(1..=20))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u64).range(1..=20))]
     pub tries: u64,
     /// Plugins from dynamic libraries.
     #[command(flatten)]

@@ -113,9 +113,9 @@ impl Bench {
         let done = guarded(|| work(plugins, &mut tell));
         let seconds = (self.hooks.clock)() - start;
         // Of all tries together.
-        match self.timings_ms.iter_mut().find(|(timed, _)| *timed == step) {
-            Some((_, ms)) => *ms += seconds * 1e3,
-            None => self.timings_ms.push((step, seconds * 1e3)),
+        match self.timings_ms.binary_search_by_key(&step, |(timed, _)| *timed) {
+            Ok(at) => self.timings_ms[at].1 += seconds * 1e3,
+            Err(at) => self.timings_ms.insert(at, (step, seconds * 1e3)),
         }
         (done, seconds)
     }

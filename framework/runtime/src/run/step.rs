@@ -5,7 +5,7 @@ use bevy_ecs::schedule::SystemSet;
 use serde::{Deserialize, Serialize};
 
 /// A step of a run, in order.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Step {
     /// Let go and go back to where the robot waits, after a run that failed.
     Withdraw,
@@ -33,7 +33,9 @@ pub enum Step {
 
 impl Step {
     /// Every step, in order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
+        Self::Withdraw,
+        Self::Require,
         Self::Observe,
         Self::Perceive,
         Self::Encode,

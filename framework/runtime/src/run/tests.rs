@@ -284,6 +284,11 @@ fn what_was_lost_on_the_way_is_taken_again() {
     let expected = [&one_try[..], &["withdraw"], &one_try[..], &["judge"]].concat();
     assert_eq!((outcome.tries, names(&outcome)), (2, expected));
     assert_eq!(outcome.reason, "pick: lost the object on the way (lift)");
+    // What is kept of it is read again to the same bytes, the way back included.
+    let kept = serde_json::to_string(&outcome).unwrap();
+    assert!(kept.contains("\"withdraw\":"), "{kept}");
+    let read: Outcome = serde_json::from_str(&kept).unwrap();
+    assert_eq!(serde_json::to_string(&read).unwrap(), kept);
 }
 
 #[test]
