@@ -99,9 +99,8 @@ pub fn run(args: &EvalSkillArgs) -> Result<Ending> {
 fn report(series: &Series, workcell: &Workcell, attempts: Vec<Outcome>) -> Report {
     let measure = &workcell.skill.measure;
     let mut failures = BTreeMap::new();
-    for outcome in attempts.iter().filter(|outcome| !Placed::counts(measure, outcome)) {
-        let stage = outcome.failed_at.as_deref().unwrap_or("placed");
-        *failures.entry(stage.to_owned()).or_insert(0) += 1;
+    for failure in attempts.iter().filter_map(|outcome| Placed::failure(measure, outcome)) {
+        *failures.entry(failure).or_insert(0) += 1;
     }
     Report {
         skill: workcell.skill.name.clone(),
@@ -165,7 +164,7 @@ fn table(report: &Report) -> Result<()> {
         console::answer(&format!("  {object:<20} {}", rates.join(", ")))?;
     }
     for (stage, count) in &report.failures {
-        console::answer(&format!("  failed at {stage:<10} {count}"))?;
+        console::answer(&format!("  failed: {stage:<12} {count}"))?;
     }
     for (stage, seconds) in &report.stage_s {
         console::answer(&format!("  {stage:<20} {seconds:.1} s of the robot's time"))?;

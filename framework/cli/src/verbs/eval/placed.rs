@@ -11,6 +11,9 @@ const PROPER_YAW_DEG: f64 = 15.0;
 /// What counts as placed at all where wearing is judged, share of d.
 const WIDEST_D: f64 = 0.2;
 
+/// What lies farther from the worn state than this is not on the head, share of d.
+const BESIDE_D: f64 = 0.5;
+
 /// The rates of a skill with one measure.
 #[derive(Debug, Serialize)]
 #[serde(untagged)]
@@ -59,12 +62,20 @@ impl Placed {
         }
     }
 
-    /// Whether one attempt counts as placed at all.
-    pub fn counts(measure: &Measure, outcome: &Outcome) -> bool {
-        match measure {
+    /// How one attempt failed that does not count as placed at all: the stage, or how its object
+    /// came to lie.
+    pub fn failure(measure: &Measure, outcome: &Outcome) -> Option<String> {
+        let placed = match measure {
             Measure::Worn { .. } => worn(outcome, WIDEST_D),
             Measure::Hung | Measure::Held { .. } => outcome.success == Some(true),
-        }
+        };
+        let lies = match (measure, outcome.error_d) {
+            (Measure::Worn { .. }, Some(error_d)) if error_d < BESIDE_D => "askew",
+            (Measure::Worn { .. }, _) => "beside",
+            (Measure::Hung | Measure::Held { .. }, _) => "placed",
+        };
+        let stage = outcome.failed_at.as_deref();
+        (!placed).then(|| stage.unwrap_or(lies).to_owned())
     }
 
     /// What is counted, and its rate.
