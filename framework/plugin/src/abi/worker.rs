@@ -21,6 +21,18 @@ use std::time::Duration;
 /// As much stack as a program's first thread has.
 const STACK_BYTES: usize = 8 << 20;
 
+/// How often either side looks whether the other has something for it before it goes to sleep: some
+/// 20 us, for waking a thread takes longer than most calls do.
+const LOOKS: u32 = 1_000;
+
+/// What comes so soon that it is not worth going to sleep for.
+fn soon<T>(from: &Receiver<T>) -> Option<T> {
+    (0..LOOKS).find_map(|_| {
+        std::hint::spin_loop();
+        from.try_recv().ok()
+    })
+}
+
 /// A loaded plugin, called on its own thread.
 #[derive(Debug)]
 pub(super) struct Worker {
@@ -100,7 +112,7 @@ impl Callee for Proxy {
         let called =
             Event::Called { index: self.index, method, request: request.to_vec(), lent, answer };
         self.events.send(called).map_err(|_| gone())?;
-        answered.recv().map_err(|_| gone())?
+        soon(&answered).map_or_else(|| answered.recv().map_err(|_| gone()), Ok)?
     }
 }
 
@@ -139,7 +151,9 @@ impl Worker {
                 Err(error) => _ = born.send(Err(error)),
                 Ok(instance) => {
                     _ = born.send(Ok(()));
-                    todo.iter().for_each(|job| work(table, instance, job));
+                    while let Some(job) = soon(&todo).or_else(|| todo.recv().ok()) {
+                        work(table, instance, job);
+                    }
                     if let Some(release) = table.release {
                         // SAFETY: created by this table on this thread, released once, after
                         // every call on it.
@@ -189,7 +203,7 @@ impl Callee for Worker {
         let job = Job { method, request: request.to_vec(), lent: lent.len(), events };
         jobs.as_ref().ok_or_else(alone)?.send(job).map_err(|_| alone())?;
         loop {
-            match told.recv_timeout(self.patience) {
+            match soon(&told).map_or_else(|| told.recv_timeout(self.patience), Ok) {
                 Ok(Event::Done(result)) => return result,
                 Ok(Event::Called { index, method, request, lent: theirs, answer }) => {
                     // What is lent lives while its lender waits, which it does until `answer`
