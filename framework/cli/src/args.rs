@@ -127,7 +127,7 @@ pub struct LibraryArgs {
     #[arg(long = "plugin", value_name = "PATH")]
     pub plugins: Vec<PathBuf>,
     /// Leave a loaded plugin alone that has given no sign of life for so many seconds; 0 waits
-    /// for ever, and calls it a few microseconds faster.
+    /// for ever, and calls it a little faster.
     #[arg(
         long = "plugin-patience",
         value_name = "SECONDS",
