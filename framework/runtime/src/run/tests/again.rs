@@ -1,11 +1,18 @@
 //! Tries after the first: of what was missed, lost, or does not lie as it was shown.
 
-use super::super::{Hooks, Outcome, Planned, Step, plan, run};
+use super::super::{Finished, Hooks, Outcome, Planned, Step, plan, run};
 use super::{finished, names};
 use crate::fakes::{Behaviour, FakeCell, leaning};
 use crate::files::Stage;
 use crate::transfer::{TILTS_DEG, turns};
 use seeone_core::pose::difference;
+
+/// A run of at most so many tries.
+fn tried(cell: &FakeCell, behaviour: Behaviour, tries: usize) -> Finished {
+    let mut assignment = cell.assignment();
+    assignment.tries = tries;
+    run(assignment, cell.plugins(behaviour), Hooks::default())
+}
 
 #[test]
 fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
@@ -46,10 +53,7 @@ fn a_hand_that_closed_on_nothing_goes_back_and_looks_again() {
 fn a_hand_that_closed_on_nothing_opens_wider_as_far_as_it_can() {
     let cell = FakeCell::new();
     let opened = |misses: usize| {
-        let mut assignment = cell.assignment();
-        assignment.tries = 9;
-        let behaviour = Behaviour { misses, ..Behaviour::default() };
-        let finished = run(assignment, cell.plugins(behaviour), Hooks::default());
+        let finished = tried(&cell, Behaviour { misses, ..Behaviour::default() }, 9);
         finished.left::<Planned>().expect("a plan").key_poses[0].opening_m
     };
     let widest_m = cell.assignment().robot.gripper().stroke_m();
@@ -77,25 +81,22 @@ fn a_hand_that_has_no_way_along_the_surface_comes_from_above_it() {
 #[test]
 fn what_does_not_lie_as_it_was_shown_is_taken_again() {
     let cell = FakeCell::with_result();
-    let tried = |falls: usize, tries: usize| {
-        let mut assignment = cell.assignment();
-        assignment.tries = tries;
-        let behaviour = Behaviour { falls, ..Behaviour::default() };
-        run(assignment, cell.plugins(behaviour), Hooks::default()).outcome
+    let fallen = |falls: usize, tries: usize| {
+        tried(&cell, Behaviour { falls, ..Behaviour::default() }, tries).outcome
     };
     let checks = |outcome: &Outcome| {
         let checks = outcome.stages.iter().filter(|stage| stage.name == "check");
         checks.map(|stage| stage.ok).collect::<Vec<_>>()
     };
-    let at_once = tried(0, 3);
+    let at_once = fallen(0, 3);
     assert_eq!((at_once.tries, at_once.as_shown, checks(&at_once)), (1, Some(true), vec![true]));
     let told = at_once.stages.iter().find(|stage| stage.name == "check").unwrap();
     assert_eq!(told.reason.as_deref(), Some("10 mm and 0 degrees from where it was shown"));
-    let second = tried(1, 3);
+    let second = fallen(1, 3);
     assert_eq!((second.tries, second.as_shown), (2, Some(true)));
     assert_eq!(checks(&second), [false, true]);
     // What the robot believes decides no verdict.
-    let never = tried(9, 2);
+    let never = fallen(9, 2);
     assert_eq!((never.tries, never.as_shown, never.success), (2, Some(false), Some(true)));
     assert_eq!((checks(&never), never.failed_at), (vec![false, false], None));
 }
@@ -105,11 +106,9 @@ fn what_lies_where_it_was_to_be_but_leans_is_set_right_there() {
     let mut cell = FakeCell::with_result();
     let place = Stage { gripper: None, retreat_m: 0.0, ..cell.skill.stages[1].clone() };
     cell.skill.stages.insert(1, Stage { name: "place".into(), ..place });
-    let mut assignment = cell.assignment();
-    assignment.tries = 2;
-    let head = assignment.frames["head"];
+    let head = cell.assignment().frames["head"];
     let behaviour = Behaviour { leans_deg: 12.0, ..Behaviour::default() };
-    let finished = run(assignment, cell.plugins(behaviour), Hooks::default());
+    let finished = tried(&cell, behaviour, 2);
     let outcome = &finished.outcome;
     let told: Vec<_> = outcome.stages.iter().map(|s| (s.name.as_str(), s.ok)).collect();
     assert!(told.contains(&("check", false)) && told.contains(&("right", true)), "{told:?}");
@@ -124,19 +123,14 @@ fn what_lies_where_it_was_to_be_but_leans_is_set_right_there() {
     }
     // Where there is no way to set it right, all of it is done again.
     let behaviour = Behaviour { unreachable: Some("right"), ..behaviour };
-    let mut assignment = cell.assignment();
-    assignment.tries = 2;
-    let outcome = run(assignment, cell.plugins(behaviour), Hooks::default()).outcome;
+    let outcome = tried(&cell, behaviour, 2).outcome;
     assert_eq!(names(&outcome).iter().filter(|name| **name == "place").count(), 2);
 }
 
 #[test]
 fn what_was_lost_on_the_way_is_taken_again() {
     let cell = FakeCell::new();
-    let mut assignment = cell.assignment();
-    assignment.tries = 2;
-    let behaviour = Behaviour { drops: true, ..Behaviour::default() };
-    let outcome = run(assignment, cell.plugins(behaviour), Hooks::default()).outcome;
+    let outcome = tried(&cell, Behaviour { drops: true, ..Behaviour::default() }, 2).outcome;
     let one_try = ["observe", "perceive", "encode", "transfer", "plan", "pick"];
     let expected = [&one_try[..], &["withdraw"], &one_try[..], &["judge"]].concat();
     assert_eq!((outcome.tries, names(&outcome)), (2, expected));
