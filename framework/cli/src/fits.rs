@@ -52,9 +52,9 @@ impl Reach {
     }
 }
 
-/// What of a skill's file does not fit: a hand that closes beside its cloud, frames that the scene has not, and poses that the robot
-/// does not reach where the scene has them. `targets` are the scene's frames for those of the
-/// skill, where a task binds them.
+/// What of a skill's file does not fit: a hand that closes beside its cloud, frames that the scene
+/// has not, and poses that the robot does not reach where the scene has them. `targets` are the
+/// scene's frames for those of the skill, where a task binds them.
 pub fn misfits(
     path: &Path,
     skill: &Skill,

@@ -64,10 +64,11 @@ pub(super) fn righting(
     let first = KeyPose { lift_m: 0.0, retreat_m: 0.0, ..skill.stages[0].key_pose(taken) };
     let right = KeyPose {
         stage: RIGHTING.into(),
+        pose: turned,
         approach_m: 0.0,
         until_contact_n: most_n,
         gripper: None,
         ..first.clone()
     };
-    Some(vec![first, KeyPose { pose: turned, ..right }, last.key_pose(turned)])
+    Some(vec![first, right, last.key_pose(turned)])
 }

@@ -9,8 +9,8 @@ const PADS_M: f64 = 0.025;
 /// Of what was held, so many points at least were seen.
 const LEAST_POINTS: usize = 3;
 
-/// Checks that the first stage of `skill`, which takes the object, takes some of `shown`, the cloud of its
-/// demonstration.
+/// Checks that the first stage of `skill`, which takes the object, takes some of `shown`, the cloud
+/// of its demonstration.
 ///
 /// # Errors
 /// A sentence about how far from the hand the cloud is.
